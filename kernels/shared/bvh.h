@@ -1,0 +1,38 @@
+// The 8-wide bounding volume hierarchy. Structure of arrays inside a node and
+// inside a block of triangles, so that one work-item tests eight at a time.
+#ifndef SUNDOG_SHARED_BVH_H
+#define SUNDOG_SHARED_BVH_H
+#include "shared/platform.h"
+SHARED_BEGIN
+
+#define BVH_WIDTH 8
+// Depth that the builder guarantees; bounds the traversal stack.
+#define BVH_MAX_DEPTH 40
+
+// Children: >= 0 an inner node's index; < 0 a leaf whose code is ~child (below).
+// Unused slots carry bounds at large positive coordinates, which no ray enters.
+typedef struct BvhNode {
+    float lower_x[BVH_WIDTH], upper_x[BVH_WIDTH];
+    float lower_y[BVH_WIDTH], upper_y[BVH_WIDTH];
+    float lower_z[BVH_WIDTH], upper_z[BVH_WIDTH];
+    int child[BVH_WIDTH];
+    int unused[BVH_WIDTH];
+} BvhNode;
+SHARED_SIZE(BvhNode, 256);
+
+// A leaf's code: first_block << 6 | triangle_blocks << 3 | analytic_blocks.
+// Its triangle blocks come first, its analytic blocks follow.
+#define BVH_LEAF_BLOCK_BITS 3
+#define BVH_LEAF_MAX_BLOCKS 7
+
+// Eight triangles, or the indices of eight analytic primitives (then only `id`
+// is used). vertex[k][axis][lane]. Unused lanes: degenerate triangles, and
+// NO_PRIMITIVE as id.
+typedef struct BvhBlock {
+    float vertex[3][3][BVH_WIDTH];
+    uint id[BVH_WIDTH];
+} BvhBlock;
+SHARED_SIZE(BvhBlock, 320);
+
+SHARED_END
+#endif

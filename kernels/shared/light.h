@@ -1,0 +1,39 @@
+// Light sources: one record for each emissive primitive, point, spot, direction
+// and environment, and the alias table that chooses among them by power.
+#ifndef SUNDOG_SHARED_LIGHT_H
+#define SUNDOG_SHARED_LIGHT_H
+#include "shared/vec3.h"
+SHARED_BEGIN
+
+#define LIGHT_TRIANGLE 0u    // emission: radiance (W/m^2/sr) from the front side
+#define LIGHT_SPHERE 1u      // the same
+#define LIGHT_DISK 2u        // the same
+#define LIGHT_POINT 3u       // emission: radiant intensity (W/sr)
+#define LIGHT_SPOT 4u        // emission: radiant intensity on the axis (W/sr)
+#define LIGHT_DIRECTIONAL 5u // emission: irradiance across the direction (W/m^2)
+#define LIGHT_CONSTANT 6u    // emission: radiance from all directions (W/m^2/sr)
+
+typedef struct Light {
+    uint type;
+    uint primitive;    // of an area light: as in Hit
+    float probability; // of being chosen by the alias table
+    float area;        // of an area light (m^2)
+    Vec3 emission;
+    float cutoff_angle; // spot: no light beyond this angle (rad)
+    Vec3 position;      // point and spot
+    float beam_width;   // spot: full intensity within this angle (rad)
+    Vec3 direction;     // spot and directional: of propagation, unit length
+    float unused;
+} Light;
+SHARED_SIZE(Light, 64);
+
+// Vose's alias method: column i keeps i with probability `threshold`, else it
+// yields `alias`.
+typedef struct AliasEntry {
+    float threshold;
+    uint alias;
+} AliasEntry;
+SHARED_SIZE(AliasEntry, 8);
+
+SHARED_END
+#endif

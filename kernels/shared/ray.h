@@ -1,0 +1,32 @@
+// Rays and what they hit: the currency of the trace stages.
+#ifndef SUNDOG_SHARED_RAY_H
+#define SUNDOG_SHARED_RAY_H
+#include "shared/vec3.h"
+SHARED_BEGIN
+
+// Points origin + t * direction with 0 < t < t_max. The direction need not be
+// normalised: t is measured in its length.
+typedef struct Ray {
+    Vec3 origin;
+    float t_max;
+    Vec3 direction;
+    uint unused;
+} Ray;
+SHARED_SIZE(Ray, 32);
+
+#define NO_PRIMITIVE 0xffffffffu
+#define ANALYTIC_BIT 0x80000000u
+
+// primitive: NO_PRIMITIVE for a miss; else an index into `triangles`, or, with
+// ANALYTIC_BIT set, into `analytics`. u, v: for a triangle the barycentric
+// weights of its second and third vertex; unused otherwise.
+typedef struct Hit {
+    float t;
+    float u;
+    float v;
+    uint primitive;
+} Hit;
+SHARED_SIZE(Hit, 16);
+
+SHARED_END
+#endif

@@ -1,0 +1,39 @@
+// The scene on the device, named once: this list becomes the kernels' parameters
+// (kernels/scene/scene_view.h) and the host's buffers (src/stages/scene_upload.h).
+#ifndef SUNDOG_SHARED_SCENE_ARRAYS_H
+#define SUNDOG_SHARED_SCENE_ARRAYS_H
+#include "shared/bsdf.h"
+#include "shared/bvh.h"
+#include "shared/geometry.h"
+#include "shared/light.h"
+#include "shared/ray.h"
+SHARED_BEGIN
+
+typedef struct SceneGlobals {
+    Vec3 center; // of the bounding sphere of all geometry
+    float radius;
+    uint light_count;
+    uint constant_light; // index of the constant environment light, or NO_LIGHT
+    int bvh_root;        // as BvhNode::child
+    uint unused;
+} SceneGlobals;
+SHARED_SIZE(SceneGlobals, 32);
+
+// X(element type, array name)
+#define GEOMETRY_ARRAYS(X)                                                                         \
+    X(SceneGlobals, globals)                                                                       \
+    X(BvhNode, bvh_nodes)                                                                          \
+    X(BvhBlock, bvh_blocks)                                                                        \
+    X(AnalyticPrimitive, analytics)
+
+#define SURFACE_ARRAYS(X)                                                                          \
+    X(Triangle, triangles)                                                                         \
+    X(Vec3, positions)                                                                             \
+    X(Vec3, normals)                                                                               \
+    X(Shape, shapes)                                                                               \
+    X(Bsdf, bsdfs)                                                                                 \
+    X(Light, lights)                                                                               \
+    X(AliasEntry, light_alias)
+
+SHARED_END
+#endif

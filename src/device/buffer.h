@@ -1,0 +1,80 @@
+// Typed device memory.
+#pragma once
+
+#include "device/device.h"
+
+#include <cassert>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace sundog {
+
+// Untyped part: one allocation. On CPU devices the memory is 2 MB aligned, huge-page advised host
+// memory that the device uses in place (up to +41% on incoherent traversal).
+class RawBuffer {
+public:
+    RawBuffer() = default;
+    // label names the buffer in out-of-memory errors. bytes 0 is rounded up to the smallest allocation.
+    RawBuffer(Device& device, std::size_t bytes, std::string label);
+    RawBuffer(RawBuffer&&) noexcept;
+    RawBuffer& operator=(RawBuffer&&) noexcept;
+    ~RawBuffer();
+
+    std::size_t bytes() const { return bytes_; }
+    const std::string& label() const { return label_; }
+    explicit operator bool() const { return memory_ != nullptr; }
+
+    void write(std::size_t offset, const void* source, std::size_t bytes); // returns when source may be reused
+    void read(std::size_t offset, void* target, std::size_t bytes) const; // waits for all work before it
+    void fill(const void* pattern, std::size_t pattern_bytes); // enqueues
+    void* memory() const { return memory_; } // the cl_mem
+
+private:
+    Device* device_ = nullptr;
+    void* memory_ = nullptr;
+    void* host_ = nullptr;
+    std::size_t bytes_ = 0;
+    std::size_t allocated_ = 0;
+    std::string label_;
+};
+
+// count elements of T, uninitialised unless made from data.
+template <class T> class Buffer {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+    using value_type = T;
+
+    Buffer() = default;
+    Buffer(Device& device, std::size_t count, std::string label) : raw_(device, count * sizeof(T), std::move(label)), size_(count) {}
+    Buffer(Device& device, std::span<const T> data, std::string label) : Buffer(device, data.size(), std::move(label)) { upload(data); }
+    Buffer(Device& device, const std::vector<T>& data, std::string label) : Buffer(device, std::span<const T>(data), std::move(label)) {}
+
+    std::size_t size() const { return size_; }
+    std::size_t bytes() const { return size_ * sizeof(T); }
+    explicit operator bool() const { return bool(raw_); }
+
+    void upload(std::span<const T> data, std::size_t first = 0)
+    {
+        assert(first + data.size() <= size_);
+        if (!data.empty()) raw_.write(first * sizeof(T), data.data(), data.size_bytes());
+    }
+    std::vector<T> download(std::size_t first, std::size_t count) const
+    {
+        assert(first + count <= size_);
+        std::vector<T> data(count);
+        if (count > 0) raw_.read(first * sizeof(T), data.data(), count * sizeof(T));
+        return data;
+    }
+    std::vector<T> download() const { return download(0, size_); }
+    T read(std::size_t index) const { return download(index, 1).front(); }
+    void fill(T value) { raw_.fill(&value, sizeof(T)); } // sizeof(T) a power of two <= 128
+    const RawBuffer& raw() const { return raw_; }
+
+private:
+    RawBuffer raw_;
+    std::size_t size_ = 0;
+};
+
+} // namespace sundog

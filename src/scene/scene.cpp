@@ -1,0 +1,46 @@
+#include "scene/scene.h"
+
+namespace sundog {
+
+namespace {
+
+Bounds bounds_of(const TriangleMesh& mesh)
+{
+    Bounds b;
+    for (const auto& triangle : mesh.triangles)
+        for (uint v : triangle) b.extend(mesh.positions[v]);
+    return b;
+}
+
+Bounds bounds_of(const Sphere& sphere)
+{
+    const Vec3 r{sphere.radius, sphere.radius, sphere.radius};
+    return {sphere.center - r, sphere.center + r};
+}
+
+Bounds bounds_of(const Disk& disk)
+{
+    // The ellipse's reach along an axis is the length of (u, v) on that axis.
+    const Vec3 r{std::hypot(disk.axis_u.x, disk.axis_v.x), std::hypot(disk.axis_u.y, disk.axis_v.y),
+                 std::hypot(disk.axis_u.z, disk.axis_v.z)};
+    return {disk.center - r, disk.center + r};
+}
+
+} // namespace
+
+std::size_t Scene::triangle_count() const
+{
+    std::size_t count = 0;
+    for (const auto& shape : shapes)
+        if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) count += mesh->triangles.size();
+    return count;
+}
+
+Bounds Scene::bounds() const
+{
+    Bounds all;
+    for (const auto& shape : shapes) all.extend(std::visit([](const auto& g) { return bounds_of(g); }, shape.geometry));
+    return all;
+}
+
+} // namespace sundog
