@@ -1,0 +1,62 @@
+// A method: a named composition of stages. Each methods/*.cpp holds one, registers it, and says which
+// paper it follows.
+#pragma once
+
+#include "film/image.h"
+#include "methods/parameters.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sundog {
+
+class Device;
+struct RenderContext; // device, uploaded scene, film, camera, sampler: methods/render_context.h
+
+// Totals since the start of the render.
+struct MethodCounters {
+    std::uint64_t light_subpaths = 0;
+    std::uint64_t camera_subpaths = 0;
+    std::uint64_t photons_stored = 0;
+    std::uint64_t rays = 0;
+};
+
+class Method {
+public:
+    virtual ~Method() = default;
+
+    // Renders iteration `iteration` (from 0) into the film. Enqueues; need not wait.
+    virtual void render_pass(std::uint64_t iteration) = 0;
+
+    // Adds to the film's image what the method keeps outside it (the per-pixel statistics of sppm).
+    virtual void resolve(Image&) const {}
+
+    virtual MethodCounters counters() const = 0;
+};
+
+// What a user may know of a method before choosing it.
+struct MethodInfo {
+    std::string name; // "sppm"
+    std::string title; // "Stochastic progressive photon mapping"
+    std::string paper; // "Hachisuka and Jensen 2009, ACM TOG 28(5)"
+    std::string estimator_class; // "unbiased", "consistent" or "biased"
+    std::string description; // a few sentences: idea, when to use it
+    std::vector<ParameterSpec> parameters;
+    std::unique_ptr<Method> (*create)(RenderContext&, const Parameters&) = nullptr;
+};
+
+// All registered methods, sorted by name.
+std::vector<const MethodInfo*> all_methods();
+
+// nullptr when there is none of that name.
+const MethodInfo* find_method(const std::string& name);
+
+// A static object of this type in a method's file registers it.
+class MethodRegistration {
+public:
+    explicit MethodRegistration(MethodInfo info);
+};
+
+} // namespace sundog

@@ -1,0 +1,65 @@
+// A render from start to image: scene and method on a device, iteration after iteration.
+#pragma once
+
+#include "device/device.h"
+#include "film/image.h"
+#include "methods/method.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace sundog {
+
+// What the command line (or a library user) asks for beyond the scene file.
+struct RenderSettings {
+    std::string method; // empty: the scene's <integrator>, else "sppm"
+    std::map<std::string, std::string> parameters; // as with --param; they override the scene's
+    std::optional<std::uint64_t> seed; // else the scene's
+    std::optional<std::pair<int, int>> size; // film size in pixels, instead of the scene's
+};
+
+struct RenderStatistics {
+    std::string method;
+    std::vector<std::pair<std::string, std::string>> parameters;
+    std::uint64_t seed = 0;
+    std::string device;
+    std::uint64_t iterations = 0;
+    MethodCounters counters;
+    double render_seconds = 0.0; // wall time in iterate()
+    double kernel_build_seconds = 0.0;
+    std::vector<std::pair<std::string, double>> stage_seconds; // label, device time
+    std::uint64_t peak_device_bytes = 0;
+    std::uint64_t invalid_samples = 0; // NaN or infinite, kept out of the image
+};
+
+class RenderSession {
+public:
+    // Validates method and parameters, builds the acceleration structure, uploads the scene, builds
+    // kernels. Throws UsageError, SceneError or DeviceError.
+    RenderSession(Scene scene, Device& device, const RenderSettings& settings);
+    ~RenderSession();
+
+    // Iterations that the scene or the method's `iterations` parameter asks for (at least 1).
+    std::uint64_t requested_iterations() const;
+
+    // Renders one iteration and waits for it.
+    void iterate();
+    std::uint64_t iterations_done() const;
+
+    // The image so far, with AOV channels and metadata. At least one iteration must be done.
+    Image image() const;
+    RenderStatistics statistics() const;
+    const Scene& scene() const;
+    int width() const; // pixels of the image (the crop)
+    int height() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace sundog
