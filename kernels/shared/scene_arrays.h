@@ -19,9 +19,8 @@ typedef struct SceneGlobals {
 } SceneGlobals;
 SHARED_SIZE(SceneGlobals, 32);
 
-// X(element type, array name)
+// X(element type, array name). One SceneGlobals, `globals`, stands before the lists.
 #define GEOMETRY_ARRAYS(X)                                                                         \
-    X(SceneGlobals, globals)                                                                       \
     X(BvhNode, bvh_nodes)                                                                          \
     X(BvhBlock, bvh_blocks)                                                                        \
     X(AnalyticPrimitive, analytics)

@@ -1,0 +1,17 @@
+// Integer hashing.
+#ifndef SUNDOG_HASH_H
+#define SUNDOG_HASH_H
+
+// A bijection of 32-bit words with low bias [Wellons 2018, "lowbias32"].
+inline uint hash_uint(uint x)
+{
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    return x ^ (x >> 16);
+}
+
+inline uint hash_combine(uint seed, uint value) { return hash_uint(seed ^ (value + 0x9e3779b9u + (seed << 6) + (seed >> 2))); }
+
+#endif

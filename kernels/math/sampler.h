@@ -1,0 +1,63 @@
+// One interface to the random numbers of a path: four at a time, by dimension.
+#ifndef SUNDOG_SAMPLER_H
+#define SUNDOG_SAMPLER_H
+#include "shared/sampler.h"
+#if SAMPLER == SAMPLER_SOBOL
+#include "math/sobol.h"
+#else
+#include "math/philox.h"
+#endif
+
+typedef struct Sampler {
+    uint2 seed;  // independent: the generator's key; Sobol: x is the sequence's seed
+    ulong index; // position in the sequence
+    uint sequence;
+    uint block; // next block of four dimensions
+} Sampler;
+
+// A path's sampler, at the start of vertex `depth` (0: the path's origin). `sequence` numbers the
+// sequences of a stream (a pixel's, say), `index` the points of the sequence.
+inline Sampler make_sampler(SamplerKey key, uint stream, uint sequence, ulong index, uint depth)
+{
+    Sampler sampler;
+    sampler.index = index;
+    sampler.sequence = sequence;
+    sampler.block = depth * BLOCKS_PER_VERTEX;
+#if SAMPLER == SAMPLER_SOBOL
+    // The sequence repeats after 2^32 points: the upper half of the index starts a new scrambling.
+    sampler.seed.x = hash_combine(hash_combine(hash_combine(hash_uint(key.seed_low), key.seed_high), stream), (uint)(index >> 32));
+    sampler.seed.x = hash_combine(sampler.seed.x, sequence);
+    sampler.seed.y = 0u;
+#else
+    sampler.seed = (uint2)(key.seed_low, key.seed_high ^ (stream << 28));
+#endif
+    return sampler;
+}
+
+inline ulong iteration_of(SamplerKey key) { return ((ulong)key.iteration_high << 32) | key.iteration_low; }
+
+// Camera paths: one sequence a pixel, one point an iteration.
+inline Sampler camera_sampler(SamplerKey key, uint pixel, uint depth)
+{
+    return make_sampler(key, STREAM_CAMERA, pixel, iteration_of(key), depth);
+}
+
+// Light paths: one sequence for all, continued from iteration to iteration.
+inline Sampler light_sampler(SamplerKey key, uint path, uint paths_per_iteration, uint depth)
+{
+    return make_sampler(key, STREAM_LIGHT, 0u, iteration_of(key) * paths_per_iteration + path, depth);
+}
+
+// The next four numbers, each in [0, 1).
+inline float4 next_4d(Sampler* sampler)
+{
+    const uint block = sampler->block++;
+#if SAMPLER == SAMPLER_SOBOL
+    return sobol_owen_4d((uint)sampler->index, hash_combine(sampler->seed.x, block));
+#else
+    const uint4 counter = (uint4)((uint)sampler->index, (uint)(sampler->index >> 32), sampler->sequence, block);
+    return convert_float4(philox4x32(counter, sampler->seed) >> 8) * 0x1p-24f;
+#endif
+}
+
+#endif

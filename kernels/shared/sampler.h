@@ -1,0 +1,29 @@
+// Where a path's random numbers come from.
+#ifndef SUNDOG_SHARED_SAMPLER_H
+#define SUNDOG_SHARED_SAMPLER_H
+#include "shared/platform.h"
+SHARED_BEGIN
+
+// The same for all paths of one pass. Every random number is a pure function of this key, the
+// path's stream, sequence and index, and the dimension.
+typedef struct SamplerKey {
+    uint seed_low;
+    uint seed_high;
+    uint iteration_low;
+    uint iteration_high;
+} SamplerKey;
+SHARED_SIZE(SamplerKey, 16);
+
+// Streams never share numbers.
+#define STREAM_CAMERA 1u
+#define STREAM_LIGHT 2u
+
+// Structure of the program: -D SAMPLER=...
+#define SAMPLER_INDEPENDENT 0
+#define SAMPLER_SOBOL 1
+
+// Blocks of four dimensions that one vertex of a path may use. Block 0 is the path's start.
+#define BLOCKS_PER_VERTEX 3u
+
+SHARED_END
+#endif
