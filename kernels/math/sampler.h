@@ -12,7 +12,7 @@ typedef struct Sampler {
     uint2 seed;  // independent: the generator's key; Sobol: x is the sequence's seed
     ulong index; // position in the sequence
     uint sequence;
-    uint block; // next block of four dimensions
+    uint block; // next block of four dimensions; the stream in its top bits
 } Sampler;
 
 // A path's sampler, at the start of vertex `depth` (0: the path's origin). `sequence` numbers the
@@ -22,14 +22,14 @@ inline Sampler make_sampler(SamplerKey key, uint stream, uint sequence, ulong in
     Sampler sampler;
     sampler.index = index;
     sampler.sequence = sequence;
-    sampler.block = depth * BLOCKS_PER_VERTEX;
+    sampler.block = (stream << 28) | (depth * BLOCKS_PER_VERTEX);
 #if SAMPLER == SAMPLER_SOBOL
     // The sequence repeats after 2^32 points: the upper half of the index starts a new scrambling.
-    sampler.seed.x = hash_combine(hash_combine(hash_combine(hash_uint(key.seed_low), key.seed_high), stream), (uint)(index >> 32));
+    sampler.seed.x = hash_combine(hash_combine(hash_uint(key.seed_low), key.seed_high), (uint)(index >> 32));
     sampler.seed.x = hash_combine(sampler.seed.x, sequence);
     sampler.seed.y = 0u;
 #else
-    sampler.seed = (uint2)(key.seed_low, key.seed_high ^ (stream << 28));
+    sampler.seed = (uint2)(key.seed_low, key.seed_high);
 #endif
     return sampler;
 }

@@ -1,0 +1,57 @@
+// Photons, the grid that finds them, and those who ask.
+#ifndef SUNDOG_SHARED_PHOTON_H
+#define SUNDOG_SHARED_PHOTON_H
+#include "shared/vec3.h"
+SHARED_BEGIN
+
+// One light subpath's visit to a surface.
+typedef struct Photon {
+    Vec3 position;
+    uint direction; // of propagation, packed
+    Vec3 flux;      // W, not divided by the number of emitted subpaths; the BSDF here is not in it
+    uint normal_depth; // low 24 bits: packed normal on the side the light came from; high 8: edges so far, at most 255
+} Photon;
+SHARED_SIZE(Photon, 32);
+
+// In the map photons lie as structure of arrays: eight streams, each `stride` long.
+#define PHOTON_X 0u
+#define PHOTON_Y 1u
+#define PHOTON_Z 2u
+#define PHOTON_RED 3u
+#define PHOTON_GREEN 4u
+#define PHOTON_BLUE 5u
+#define PHOTON_DIRECTION 6u
+#define PHOTON_NORMAL_DEPTH 7u
+#define PHOTON_STREAMS 8u
+// A query reads eight photons at once, up to seven beyond a cell's end.
+#define PHOTON_PADDING 8u
+
+// Cells are cubes with edges of at least twice the largest radius, so a query meets 2 x 2 x 2 of
+// them; cells of one (y, z) row follow one another. A scene that fits is laid out densely, else
+// rows are hashed into the table.
+typedef struct PhotonGrid {
+    Vec3 origin;
+    float inverse_cell_size;
+    uint cells_x; // the grid's size in cells
+    uint cells_y;
+    uint cells_z;
+    uint cell_count; // entries of the table, a power of two when hashed
+    uint hashed;
+    uint stride; // of the photon streams
+    uint unused[2];
+} PhotonGrid;
+SHARED_SIZE(PhotonGrid, 48);
+
+// Where a camera path asks for photons.
+typedef struct GatherQuery {
+    Vec3 position;
+    float radius;    // 0: no query
+    Vec3 throughput; // beta of the camera path, times the BSDF: for a diffuse surface beta * rho / pi
+    uint max_photon_depth; // photons with more edges would exceed max_depth
+    Vec3 normal;     // on the side that the camera sees
+    uint pixel;
+} GatherQuery;
+SHARED_SIZE(GatherQuery, 48);
+
+SHARED_END
+#endif
