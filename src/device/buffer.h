@@ -8,11 +8,13 @@
 #include <type_traits>
 #include <vector>
 
-namespace sundog {
+namespace sundog
+{
 
 // Untyped part: one allocation. On CPU devices the memory is 2 MB aligned, huge-page advised host
 // memory that the device uses in place (up to +41% on incoherent traversal).
-class RawBuffer {
+class RawBuffer
+{
 public:
     RawBuffer() = default;
     // label names the buffer in out-of-memory errors. bytes 0 is rounded up to the smallest allocation.
@@ -26,21 +28,21 @@ public:
     explicit operator bool() const { return memory_ != nullptr; }
 
     void write(std::size_t offset, const void* source, std::size_t bytes); // returns when source may be reused
-    void read(std::size_t offset, void* target, std::size_t bytes) const; // waits for all work before it
-    void fill(const void* pattern, std::size_t pattern_bytes); // enqueues
-    void* memory() const { return memory_; } // the cl_mem
+    void read(std::size_t offset, void* target, std::size_t bytes) const;  // waits for all work before it
+    void fill(const void* pattern, std::size_t pattern_bytes);             // enqueues
+    void* memory() const { return memory_; }                               // the cl_mem
 
 private:
-    Device* device_ = nullptr;
+    std::shared_ptr<Device::State> device_;
     void* memory_ = nullptr;
-    void* host_ = nullptr;
     std::size_t bytes_ = 0;
     std::size_t allocated_ = 0;
     std::string label_;
 };
 
 // count elements of T, uninitialised unless made from data.
-template <class T> class Buffer {
+template <class T> class Buffer
+{
     static_assert(std::is_trivially_copyable_v<T>);
 
 public:

@@ -10,7 +10,8 @@
 #include <string_view>
 #include <vector>
 
-namespace sundog {
+namespace sundog
+{
 
 // One OpenCL device, as `sundog devices` lists it.
 struct DeviceInfo {
@@ -39,8 +40,9 @@ DeviceInfo select_device(std::string_view selector);
 
 class Profile;
 
-// An opened device. Movable, not copyable; buffers and kernels refer to it and must not outlive it.
-class Device {
+// An opened device. Movable, not copyable; buffers and kernels keep the OpenCL objects behind it alive.
+class Device
+{
 public:
     explicit Device(const DeviceInfo& info);
     Device(Device&&) noexcept;
@@ -64,9 +66,10 @@ public:
 
     struct State; // OpenCL objects, known to src/device alone
     State& state() const { return *state_; }
+    const std::shared_ptr<State>& shared_state() const { return state_; }
 
 private:
-    std::unique_ptr<State> state_;
+    std::shared_ptr<State> state_;
 };
 
 } // namespace sundog

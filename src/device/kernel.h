@@ -10,12 +10,13 @@
 #include <utility>
 #include <vector>
 
-namespace sundog {
+namespace sundog
+{
 
 // Structural specialisation of a program. Values belong in arguments.
 struct BuildOptions {
     std::vector<std::pair<std::string, std::string>> defines; // -D name=value
-    std::vector<std::string> prelude; // embedded headers put before the stage, such as "estimators/sppm.h"
+    std::vector<std::string> prelude;                         // embedded headers put before the stage, such as "estimators/sppm.h"
 };
 
 // Name of T in kernel sources: "Photon" for sundog::Photon, "uint", "float", ...
@@ -25,15 +26,20 @@ template <class T> constexpr std::string_view device_type_name()
     constexpr auto begin = signature.find("T = ") + 4;
     constexpr auto end = signature.find_first_of(";]", begin);
     std::string_view name = signature.substr(begin, end - begin);
-    if (name.starts_with("sundog::")) name.remove_prefix(8);
+    if (const auto scope = name.rfind("::"); scope != std::string_view::npos) name.remove_prefix(scope + 2);
+    if (name == "unsigned char") return "uchar";
+    if (name == "short unsigned int" || name == "unsigned short") return "ushort";
+    if (name == "short int") return "short";
     if (name == "unsigned int") return "uint";
     if (name == "long unsigned int" || name == "unsigned long") return "ulong";
+    if (name == "long int") return "long";
     return name;
 }
 
 // Binds arguments one after another, each checked against the kernel's own declaration
-// (clGetKernelArgInfo) the first time: a wrong type or count is an internal error that names both.
-class ArgumentBinder {
+// (clGetKernelArgInfo, where the driver has it) the first time: a wrong type or count is an internal error that names both.
+class ArgumentBinder
+{
 public:
     void buffer(const RawBuffer& buffer, std::string_view element_type);
     void value(const void* data, std::size_t bytes, std::string_view type);
@@ -44,21 +50,27 @@ private:
     unsigned next_ = 0;
 };
 
-template <class T> void bind(ArgumentBinder& binder, const Buffer<T>& buffer) { binder.buffer(buffer.raw(), device_type_name<T>()); }
+template <class T> void bind(ArgumentBinder& binder, const Buffer<T>& buffer)
+{
+    binder.buffer(buffer.raw(), device_type_name<T>());
+}
 
 template <class T>
-    requires(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>)
-void bind(ArgumentBinder& binder, const T& value)
+requires(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>) void bind(ArgumentBinder& binder, const T& value)
 {
     binder.value(&value, sizeof(T), device_type_name<T>());
 }
 
 // One kernel of stages/<name>.cl, whose kernel has the same name. `label` is the phrase a profile
 // prints ("Build photon grid"). The program is built at construction.
-class Kernel {
+class Kernel
+{
 public:
-    Kernel() = default;
+    Kernel();
     Kernel(Device& device, std::string_view name, std::string_view label, const BuildOptions& options = {});
+    // The same from a text of its own instead of an embedded stage: for tests and measurements.
+    static Kernel from_source(Device& device, std::string_view name, std::string_view label, std::string_view source,
+                              const BuildOptions& options = {});
     Kernel(Kernel&&) noexcept;
     Kernel& operator=(Kernel&&) noexcept;
     ~Kernel();
@@ -82,6 +94,7 @@ public:
     }
 
 private:
+    void build(Device& device, std::string_view name, std::string_view label, const std::string& text);
     ArgumentBinder begin() const;
     void launch(ArgumentBinder& binder, std::size_t items, std::size_t group) const; // group 0: the device's
     std::unique_ptr<KernelState> state_;

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-namespace sundog {
+namespace sundog
+{
 
 struct StageTime {
     std::string label; // the kernel's phrase
@@ -14,7 +15,8 @@ struct StageTime {
 };
 
 // Filled by Kernel. Events of finished launches are folded in when asked for.
-class Profile {
+class Profile
+{
 public:
     virtual ~Profile() = default;
     virtual std::vector<StageTime> stages() = 0; // waits for the device; in order of first launch

@@ -1,0 +1,100 @@
+#include "device/event_profile.h"
+
+#include <fmt/format.h>
+
+namespace sundog
+{
+
+namespace
+{
+
+// Finished events are looked for when so many are waiting, and waited for when there are too many.
+constexpr std::size_t fold_at = 512;
+constexpr std::size_t wait_at = 4096;
+
+} // namespace
+
+double event_seconds(const cl::Event& event)
+{
+    cl_ulong begin = 0, end = 0;
+    if (event.getProfilingInfo(CL_PROFILING_COMMAND_START, &begin) != CL_SUCCESS ||
+        event.getProfilingInfo(CL_PROFILING_COMMAND_END, &end) != CL_SUCCESS || end < begin)
+        return 0.0;
+    return double(end - begin) * 1e-9;
+}
+
+void EventProfile::add(const std::string& label, cl::Event event)
+{
+    std::lock_guard lock(mutex_);
+    pending_.push_back({stage_index(label), std::move(event)});
+    if (pending_.size() % fold_at == 0) fold_finished();
+    if (pending_.size() >= wait_at) {
+        pending_[wait_at / 2].event.wait();
+        fold_finished();
+    }
+}
+
+void EventProfile::add_build_seconds(double seconds)
+{
+    std::lock_guard lock(mutex_);
+    build_seconds_ += seconds;
+}
+
+std::vector<StageTime> EventProfile::stages()
+{
+    std::lock_guard lock(mutex_);
+    fold_all();
+    return stages_;
+}
+
+double EventProfile::build_seconds() const
+{
+    std::lock_guard lock(mutex_);
+    return build_seconds_;
+}
+
+void EventProfile::reset()
+{
+    std::lock_guard lock(mutex_);
+    fold_all();
+    stages_.clear();
+    index_.clear();
+    build_seconds_ = 0.0;
+}
+
+std::size_t EventProfile::stage_index(const std::string& label)
+{
+    auto [found, inserted] = index_.try_emplace(label, stages_.size());
+    if (inserted) stages_.push_back({label, 0.0, 0});
+    return found->second;
+}
+
+// The queue is in order: the first unfinished event ends the search.
+void EventProfile::fold_finished()
+{
+    while (!pending_.empty()) {
+        cl_int status = pending_.front().event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
+        if (status > CL_COMPLETE) return;
+        fold_front();
+    }
+}
+
+void EventProfile::fold_all()
+{
+    if (pending_.empty()) return;
+    pending_.back().event.wait();
+    while (!pending_.empty()) fold_front();
+}
+
+void EventProfile::fold_front()
+{
+    Pending done = std::move(pending_.front());
+    pending_.pop_front();
+    StageTime& stage = stages_[done.stage];
+    cl_int status = done.event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
+    if (status < CL_COMPLETE) throw_opencl_error(status, "execution", fmt::format("stage '{}'", stage.label), device_);
+    stage.seconds += event_seconds(done.event);
+    ++stage.launches;
+}
+
+} // namespace sundog

@@ -1,0 +1,99 @@
+#include "device/program_shelf.h"
+
+#include "base/errors.h"
+#include "base/hash.h"
+#include "base/log.h"
+#include "device/binary_cache.h"
+#include "device/device_state.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace sundog
+{
+
+namespace
+{
+
+constexpr const char* build_options = "-cl-std=CL1.2 -cl-kernel-arg-info";
+
+std::string cache_key(const DeviceInfo& device, const std::string& text)
+{
+    Hash hash;
+    hash.append_field(SUNDOG_VERSION).append_field(build_options).append_field(text);
+    hash.append_field(device.name).append_field(device.driver).append_field(device.platform).append_field(device.version);
+    return hash.hex();
+}
+
+// A program from a cached binary, or a null one when the driver does not take it.
+cl::Program from_binary(Device::State& device, const std::string& key)
+{
+    const auto binary = load_cached_binary(key);
+    if (!binary) return {};
+    cl_int code = CL_SUCCESS;
+    const cl::Program::Binaries binaries = {{binary->begin(), binary->end()}};
+    std::vector<cl_int> status;
+    cl::Program program(device.context, {device.device}, binaries, &status, &code);
+    if (code == CL_SUCCESS) code = program.build({device.device}, build_options);
+    if (code == CL_SUCCESS) return program;
+    log_debug(fmt::format("the driver refuses cached program {}: {}", key, opencl_error_name(code)));
+    remove_cached_binary(key);
+    return {};
+}
+
+cl::Program from_source(Device::State& device, const std::string& name, const std::string& text)
+{
+    const std::string subject = fmt::format("program '{}'", name);
+    cl_int code = CL_SUCCESS;
+    cl::Program program(device.context, text, false, &code);
+    check(code, "clCreateProgramWithSource", subject, device);
+    code = program.build({device.device}, build_options);
+    if (code == CL_SUCCESS) return program;
+    const std::string log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.device);
+    throw DeviceError(fmt::format("clBuildProgram failed for {} on device '{}': {}; build log:\n{}", subject, device.info.name,
+                                  opencl_error_name(code), log));
+}
+
+} // namespace
+
+Program::Program(cl::Program program, std::string key, bool from_cache)
+    : program_(std::move(program)), cache_key_(std::move(key)), stored_(from_cache)
+{
+}
+
+void Program::store()
+{
+    std::lock_guard lock(mutex_);
+    if (stored_) return;
+    stored_ = true;
+    cl_int code = CL_SUCCESS;
+    const auto binaries = program_.getInfo<CL_PROGRAM_BINARIES>(&code);
+    if (code != CL_SUCCESS || binaries.size() != 1 || binaries.front().empty()) {
+        log_debug(fmt::format("the driver gives no program binary: {}", opencl_error_name(code)));
+        return;
+    }
+    const auto& binary = binaries.front();
+    store_cached_binary(cache_key_, {reinterpret_cast<const char*>(binary.data()), binary.size()});
+}
+
+std::shared_ptr<Program> ProgramShelf::get(Device::State& device, const std::string& name, const std::string& text)
+{
+    std::lock_guard lock(mutex_);
+    const std::string key = cache_key(device.info, text);
+    if (auto shared = programs_[key].lock()) return shared;
+
+    const auto begin = std::chrono::steady_clock::now();
+    cl::Program program = from_binary(device, key);
+    const bool cached = program() != nullptr;
+    if (!cached) program = from_source(device, name, text);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    device.profile.add_build_seconds(seconds.count());
+    log_debug(fmt::format("program '{}' {} in {:.3f} s", name, cached ? "loaded" : "built", seconds.count()));
+
+    auto made = std::make_shared<Program>(std::move(program), key, cached);
+    programs_[key] = made;
+    return made;
+}
+
+} // namespace sundog
