@@ -10,7 +10,8 @@ SHARED_BEGIN
 #define BVH_MAX_DEPTH 40
 
 // Children: >= 0 an inner node's index; < 0 a leaf whose code is ~child (below).
-// Unused slots carry bounds at large positive coordinates, which no ray enters.
+// Unused slots carry bounds at large positive coordinates, which hardly a ray
+// enters, and an empty leaf.
 typedef struct BvhNode {
     float lower_x[BVH_WIDTH], upper_x[BVH_WIDTH];
     float lower_y[BVH_WIDTH], upper_y[BVH_WIDTH];
@@ -26,8 +27,8 @@ SHARED_SIZE(BvhNode, 256);
 #define BVH_LEAF_MAX_BLOCKS 7
 
 // Eight triangles, or the indices of eight analytic primitives (then only `id`
-// is used). vertex[k][axis][lane]. Unused lanes: degenerate triangles, and
-// NO_PRIMITIVE as id.
+// is used). vertex[k][axis][lane]; ids ascend. Unused lanes repeat the last
+// triangle, or hold NO_PRIMITIVE among analytic primitives.
 typedef struct BvhBlock {
     float vertex[3][3][BVH_WIDTH];
     uint id[BVH_WIDTH];
