@@ -3,6 +3,9 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <functional>
+#include <utility>
+
 namespace sundog
 {
 
@@ -18,6 +21,19 @@ spdlog::logger& logger()
         return made;
     }();
     return instance;
+}
+
+std::function<void()>& before_line()
+{
+    static std::function<void()> action;
+    return action;
+}
+
+void print(spdlog::level::level_enum level, std::string_view kind, std::string_view message)
+{
+    if (!logger().should_log(level)) return;
+    if (before_line()) before_line()();
+    logger().log(level, "{}{}", kind, message);
 }
 
 } // namespace
@@ -54,17 +70,17 @@ LogLevel log_level()
     }
 }
 
-void log_warning(std::string_view message)
+void log_error(std::string_view message)
 {
-    logger().warn("warning: {}", message);
+    const auto end = message.find('\n');
+    print(spdlog::level::err, "error: ", message.substr(0, end));
+    if (end != std::string_view::npos) log_debug(message.substr(end + 1));
 }
-void log_info(std::string_view message)
-{
-    logger().info("{}", message);
-}
-void log_debug(std::string_view message)
-{
-    logger().debug("debug: {}", message);
-}
+
+void log_warning(std::string_view message) { print(spdlog::level::warn, "warning: ", message); }
+void log_info(std::string_view message) { print(spdlog::level::info, "", message); }
+void log_debug(std::string_view message) { print(spdlog::level::debug, "debug: ", message); }
+
+void set_before_log_line(std::function<void()> action) { before_line() = std::move(action); }
 
 } // namespace sundog

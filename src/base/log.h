@@ -1,6 +1,7 @@
 // Messages to the user on stderr. Errors are exceptions; these are what goes on beside.
 #pragma once
 
+#include <functional>
 #include <string_view>
 
 namespace sundog
@@ -13,8 +14,14 @@ void set_log_level(LogLevel level);
 LogLevel log_level();
 
 // "sundog: warning: MESSAGE", "sundog: MESSAGE", "sundog: debug: MESSAGE"; each one line, from any thread.
+// "sundog: error: MESSAGE", at every level. Only the first line of a message of several (a build log
+// follows) is the error; the rest is printed at level debug.
+void log_error(std::string_view message);
 void log_warning(std::string_view message);
 void log_info(std::string_view message);
 void log_debug(std::string_view message);
+
+// Called before each line that is printed, so that a progress bar can clear itself. Empty: nothing.
+void set_before_log_line(std::function<void()> action);
 
 } // namespace sundog
