@@ -6,7 +6,7 @@
 #ifndef SUNDOG_SHARED_PLATFORM_H
 #define SUNDOG_SHARED_PLATFORM_H
 
-#ifdef __OPENCL_VERSION__
+#ifdef __OPENCL_C_VERSION__
 
 #define SHARED_BEGIN
 #define SHARED_END

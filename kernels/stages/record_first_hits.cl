@@ -1,0 +1,40 @@
+// Adds what the camera sees first to the albedo, normal and depth channels. Reads rays and hits; updates
+// first_hits. One work-item a camera path. Used by every method, once an iteration.
+#include "scene/bsdf.h"
+#include "shared/film.h"
+#include "shared/path.h"
+
+inline float3 albedo_of(const Scattering* scattering)
+{
+    const float3 reflectance = unpack(scattering->bsdf.reflectance);
+    switch (scattering->bsdf.type) {
+    case BSDF_DIFFUSE: return is_black_side(scattering) ? (float3)(0.0f) : reflectance;
+    case BSDF_CONDUCTOR: return reflectance * fresnel_conductor(1.0f, unpack(scattering->bsdf.eta_rgb), unpack(scattering->bsdf.k_rgb));
+    default: return (float3)(1.0f);
+    }
+}
+
+__kernel void record_first_hits(SURFACE_PARAMETERS, __global const Ray* restrict rays, __global const Hit* restrict hits, uint count, float inverse_iterations,
+                                __global FirstHitPixel* restrict first_hits)
+{
+    const uint path = get_global_id(0);
+    if (path >= count) return;
+
+    float3 albedo = (float3)(0.0f), normal = (float3)(0.0f);
+    float depth = 0.0f;
+    const Hit hit = hits[path];
+    if (hit.primitive != NO_PRIMITIVE) {
+        const SurfaceView scene = SURFACE_VIEW;
+        const Surface surface = surface_at(&scene, rays[path], hit);
+        const Scattering scattering = scattering_at(&scene, &surface);
+        albedo = albedo_of(&scattering);
+        normal = facing(surface.shading_normal, surface.outgoing);
+        depth = hit.t;
+    }
+    // Running means: x += (sample - x) / n.
+    FirstHitPixel pixel = first_hits[path];
+    pixel.albedo = pack(unpack(pixel.albedo) + (albedo - unpack(pixel.albedo)) * inverse_iterations);
+    pixel.normal = pack(unpack(pixel.normal) + (normal - unpack(pixel.normal)) * inverse_iterations);
+    pixel.depth += (depth - pixel.depth) * inverse_iterations;
+    first_hits[path] = pixel;
+}

@@ -1,0 +1,11 @@
+// Gives each query its pixel's radius. Reads the pixels' statistics; updates queries. One work-item a query.
+// Used by sppm.
+#include "shared/film.h"
+#include "shared/photon.h"
+
+__kernel void set_query_radii(__global const ProgressivePixel* restrict pixels, uint count, __global GatherQuery* restrict queries)
+{
+    const uint index = get_global_id(0);
+    if (index >= count) return;
+    if (queries[index].radius > 0.0f) queries[index].radius = sqrt(pixels[queries[index].pixel].radius_squared);
+}

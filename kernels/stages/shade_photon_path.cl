@@ -1,0 +1,49 @@
+// One vertex of a light path: leaves a photon on every surface that is not specular and scatters on. Reads
+// hits of the active paths; writes the photon (item by item, to be appended to the map), the next ray,
+// and flags. Photons straight from a light are left out where next-event estimation counts them
+// (-D DIRECT_LIGHT=1). One work-item an active path. Used by the photon mapping methods.
+#include "scene/continue_path.h"
+#include "shared/photon.h"
+
+inline Photon make_photon(const Surface* surface, const PathState* path)
+{
+    Photon photon;
+    photon.position = pack(surface->position);
+    photon.direction = pack_direction(-surface->outgoing);
+    photon.flux = pack(unpack(path->throughput) * irradiance_scale(surface));
+    photon.normal_depth = pack_normal(facing(surface->geometric_normal, surface->outgoing)) | (min(path->depth, 255u) << 24);
+    return photon;
+}
+
+__kernel void shade_photon_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, uint path_count, __global const Hit* restrict hits,
+                                __global const uint* restrict active, __global const uint* restrict active_count, __global Ray* restrict rays,
+                                __global PathState* restrict paths, __global Photon* restrict deposits, __global uint* restrict flags)
+{
+    const uint item = get_global_id(0);
+    if (item >= *active_count) return;
+    const uint index = active[item];
+    uint flag = PATH_ENDED;
+    const Hit hit = hits[index];
+    if (hit.primitive != NO_PRIMITIVE) {
+        const SurfaceView scene = SURFACE_VIEW;
+        PathState path = paths[index];
+        const Surface surface = surface_at(&scene, rays[index], hit);
+        const Scattering scattering = scattering_at(&scene, &surface);
+        const bool counted_elsewhere = DIRECT_LIGHT && path.depth == 1u;
+        if (!is_specular(&scattering) && !is_black_side(&scattering) && !counted_elsewhere) {
+            deposits[item] = make_photon(&surface, &path);
+            flag |= PATH_DEPOSIT;
+        }
+        // The camera's side of the path has at least one edge: this one's next photon would have one more.
+        if (rules.max_depth == UNBOUNDED_DEPTH || path.depth + 2u <= rules.max_depth) {
+            Sampler sampler = light_sampler(key, index, path_count, path.depth);
+            Ray next;
+            if (continue_light_path(&surface, &scattering, rules, &sampler, &path, &next)) {
+                rays[index] = next;
+                paths[index] = path;
+                flag |= PATH_ALIVE;
+            }
+        }
+    }
+    flags[item] = flag;
+}

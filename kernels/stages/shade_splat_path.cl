@@ -1,0 +1,95 @@
+// One vertex of a light path that is connected to the camera. Reads hits of the active paths; writes the
+// shadow ray to the lens with the splat it would bring, the next ray, and whether the path goes on. One
+// work-item an active path. Used by ptracer.
+#include "scene/camera_rays.h"
+#include "scene/continue_path.h"
+#include "shared/film.h"
+
+// Chooses one of the pixels whose filter covers a film coordinate, by |weight|. Returns its index along the
+// axis and writes sum of |weights| with the weight's sign: one splat instead of many, the same mean.
+inline int choose_filter_pixel(__global const PixelFilter* filter, float coordinate, float u, float* weight)
+{
+    const int first = (int)ceil(coordinate - filter->radius - 0.5f);
+    const int last = (int)floor(coordinate + filter->radius - 0.5f);
+    const float bins_per_pixel = 0.5f * FILTER_BINS / filter->radius;
+    float total = 0.0f;
+    for (int pixel = first; pixel <= last; ++pixel) {
+        const int bin = clamp((int)((coordinate - (float)pixel - 0.5f + filter->radius) * bins_per_pixel), 0, FILTER_BINS - 1);
+        total += fabs(filter->density[bin]);
+    }
+    float target = u * total;
+    int chosen = first;
+    float density = 0.0f;
+    for (int pixel = first; pixel <= last; ++pixel) {
+        const int bin = clamp((int)((coordinate - (float)pixel - 0.5f + filter->radius) * bins_per_pixel), 0, FILTER_BINS - 1);
+        if (filter->density[bin] == 0.0f) continue;
+        chosen = pixel;
+        density = filter->density[bin];
+        target -= fabs(density);
+        if (target < 0.0f) break;
+    }
+    *weight = copysign(total, density);
+    return chosen;
+}
+
+// The splat of a vertex, 0 when the camera does not see it; its shadow ray runs to the lens.
+inline Splat connect_vertex(const Camera* camera, __global const PixelFilter* filter, const Surface* surface, const Scattering* scattering, const PathState* path,
+                            float4 u, Ray* shadow_ray)
+{
+    Splat splat = {{0.0f, 0.0f, 0.0f}, 0u};
+    *shadow_ray = no_ray();
+    const CameraConnection connection = connect_to_camera(camera, surface->position, u.xy);
+    if (!connection.visible) return splat;
+    float weight_x, weight_y;
+    const int x = choose_filter_pixel(filter, connection.film.x, u.z, &weight_x) - camera->crop_x;
+    const int y = choose_filter_pixel(filter, connection.film.y, u.w, &weight_y) - camera->crop_y;
+    if (x < 0 || y < 0 || x >= camera->crop_width || y >= camera->crop_height) return splat;
+
+    const float3 to_lens = connection.lens - surface->position;
+    const float distance_squared = dot(to_lens, to_lens);
+    const float3 direction = to_lens * rsqrt(distance_squared);
+    const float3 f = bsdf_evaluate(scattering, surface, direction) * irradiance_scale(surface);
+    const float geometry = fabs(dot(direction, surface->geometric_normal)) / distance_squared;
+    splat.radiance = pack(unpack(path->throughput) * f * (geometry * connection.importance * weight_x * weight_y));
+    splat.pixel = path_of_pixel((uint2)((uint)x, (uint)y), camera->crop_width, camera->crop_height);
+    if (is_black(f)) return splat;
+
+    shadow_ray->origin = pack(ray_origin(surface, direction));
+    shadow_ray->direction = pack(connection.lens - ray_origin(surface, direction));
+    // Surfaces nearer to the lens than the near plane do not hide anything.
+    const float z = -dot(to_lens, unpack(camera->axis_z));
+    shadow_ray->t_max = 1.0f - camera->near_clip / z;
+    return splat;
+}
+
+__kernel void shade_splat_path(SURFACE_PARAMETERS, Camera camera, __global const PixelFilter* restrict filter, SamplerKey key, PathRules rules, uint path_count,
+                               __global const Hit* restrict hits, __global const uint* restrict active, __global const uint* restrict active_count,
+                               __global Ray* restrict rays, __global PathState* restrict paths, __global Ray* restrict shadow_rays,
+                               __global Splat* restrict deposits, __global uint* restrict flags)
+{
+    const uint item = get_global_id(0);
+    if (item >= *active_count) return;
+    const uint index = active[item];
+    flags[item] = PATH_ENDED;
+    shadow_rays[index].t_max = 0.0f;
+    const Hit hit = hits[index];
+    if (hit.primitive == NO_PRIMITIVE) return;
+
+    const SurfaceView scene = SURFACE_VIEW;
+    PathState path = paths[index];
+    if (path.depth >= rules.max_depth) return;
+    const Surface surface = surface_at(&scene, rays[index], hit);
+    const Scattering scattering = scattering_at(&scene, &surface);
+    Sampler sampler = light_sampler(key, index, path_count, path.depth);
+    const float4 u = next_4d(&sampler);
+    if (!is_specular(&scattering) && !is_black_side(&scattering)) {
+        Ray shadow_ray;
+        deposits[item] = connect_vertex(&camera, filter, &surface, &scattering, &path, u, &shadow_ray);
+        shadow_rays[index] = shadow_ray;
+    }
+    Ray next;
+    if (!continue_light_path(&surface, &scattering, rules, &sampler, &path, &next)) return;
+    rays[index] = next;
+    paths[index] = path;
+    flags[item] = PATH_ALIVE;
+}
