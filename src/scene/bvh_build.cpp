@@ -14,14 +14,19 @@
 #include <stdexcept>
 #include <string>
 
-namespace sundog {
-namespace {
+namespace sundog
+{
+namespace
+{
 
 // --- Conversions to and from Embree's primitives ------------------------------------
 // primID holds the triangle's or analytic primitive's index, geomID which of the two it
 // is, in its lowest bit: Embree counts splits in the upper ones.
 
-uint id_of(const RTCBuildPrimitive& primitive) { return primitive.geomID & 1u ? primitive.primID | ANALYTIC_BIT : primitive.primID; }
+uint id_of(const RTCBuildPrimitive& primitive)
+{
+    return primitive.geomID & 1u ? primitive.primID | ANALYTIC_BIT : primitive.primID;
+}
 
 RTCBuildPrimitive to_embree(const BvhPrimitive& primitive)
 {
@@ -73,10 +78,12 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
     return static_cast<BuildNode*>(leaf);
 }
 
-void split_primitive(const RTCBuildPrimitive* primitive, unsigned dimension, float position, RTCBounds* left, RTCBounds* right, void* context)
+void split_primitive(const RTCBuildPrimitive* primitive, unsigned dimension, float position, RTCBounds* left, RTCBounds* right,
+                     void* context)
 {
     const BvhGeometry& geometry = *static_cast<const BvhGeometry*>(context);
-    Bounds below{{primitive->lower_x, primitive->lower_y, primitive->lower_z}, {primitive->upper_x, primitive->upper_y, primitive->upper_z}};
+    Bounds below{{primitive->lower_x, primitive->lower_y, primitive->lower_z},
+                 {primitive->upper_x, primitive->upper_y, primitive->upper_z}};
     Bounds above = below;
     (&below.upper.x)[dimension] = position;
     (&above.lower.x)[dimension] = position;

@@ -8,7 +8,8 @@
 #include <span>
 #include <vector>
 
-namespace sundog {
+namespace sundog
+{
 
 // Everything a ray can hit, world space. Triangles index positions.
 struct BvhGeometry {

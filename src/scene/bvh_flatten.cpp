@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
-namespace sundog {
-namespace {
+namespace sundog
+{
+namespace
+{
 
 constexpr int empty_leaf = ~0;
 // Outside of every scene (build_bvh refuses coordinates beyond 1e12).
@@ -15,11 +17,15 @@ constexpr std::size_t largest_block_count = std::size_t(1) << (31 - 2 * BVH_LEAF
 
 static_assert((BuildLeaf::capacity + BVH_WIDTH - 1) / BVH_WIDTH <= BVH_LEAF_MAX_BLOCKS);
 
-class Flattener {
+class Flattener
+{
 public:
     Flattener(const BvhGeometry& geometry, Bvh& bvh) : geometry_(geometry), bvh_(bvh) {}
 
-    int add(const BuildNode& node) { return node.is_leaf ? add(static_cast<const BuildLeaf&>(node)) : add(static_cast<const BuildInner&>(node)); }
+    int add(const BuildNode& node)
+    {
+        return node.is_leaf ? add(static_cast<const BuildLeaf&>(node)) : add(static_cast<const BuildInner&>(node));
+    }
 
 private:
     int add(const BuildInner& inner)

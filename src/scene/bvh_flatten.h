@@ -5,7 +5,8 @@
 
 #include <cstddef>
 
-namespace sundog {
+namespace sundog
+{
 
 struct BuildNode {
     explicit BuildNode(bool leaf) : is_leaf(leaf) {}

@@ -9,14 +9,19 @@
 #include <stdexcept>
 #include <string>
 
-namespace sundog {
-namespace {
+namespace sundog
+{
+namespace
+{
 
 using Point = std::array<double, 3>;
 
 constexpr double largest_coordinate = 1e12;
 
-Point to_point(Vec3 v) { return {v.x, v.y, v.z}; }
+Point to_point(Vec3 v)
+{
+    return {v.x, v.y, v.z};
+}
 
 float round_down(double x)
 {
@@ -32,7 +37,8 @@ float round_up(double x)
 
 Bounds round_outwards(const Point& lower, const Point& upper)
 {
-    return {{round_down(lower[0]), round_down(lower[1]), round_down(lower[2])}, {round_up(upper[0]), round_up(upper[1]), round_up(upper[2])}};
+    return {{round_down(lower[0]), round_down(lower[1]), round_down(lower[2])},
+            {round_up(upper[0]), round_up(upper[1]), round_up(upper[2])}};
 }
 
 // A convex polygon: a triangle cut by up to six planes has nine corners at most.

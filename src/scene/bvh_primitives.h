@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-namespace sundog {
+namespace sundog
+{
 
 // Box of one primitive. id: as Hit::primitive.
 struct BvhPrimitive {

@@ -1,0 +1,27 @@
+// What rays hit, on the device.
+#pragma once
+
+#include "device/kernel.h"
+#include "scene/bvh_build.h"
+#include "shared/scene_arrays.h"
+
+namespace sundog
+{
+
+// Binds as GEOMETRY_PARAMETERS.
+struct GeometryBuffers {
+    Buffer<SceneGlobals> globals;
+#define GEOMETRY_BUFFER(type, name) Buffer<type> name;
+    GEOMETRY_ARRAYS(GEOMETRY_BUFFER)
+#undef GEOMETRY_BUFFER
+};
+
+// globals.center, radius and bvh_root follow from the hierarchy; the other members are kept as given.
+GeometryBuffers upload_geometry(Device& device, const Bvh& bvh, std::span<const AnalyticPrimitive> analytics, SceneGlobals globals = {});
+
+// Specialises trace_closest and trace_any for what the geometry contains.
+BuildOptions trace_options(std::span<const AnalyticPrimitive> analytics);
+
+void bind(ArgumentBinder& binder, const GeometryBuffers& geometry);
+
+} // namespace sundog
