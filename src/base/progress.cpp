@@ -17,6 +17,12 @@ constexpr double redraw_interval = 0.1; // s
 constexpr double first_plain_line = 2.0;
 constexpr double second_plain_line = 5.0;
 constexpr double plain_interval = 10.0;
+constexpr int room_for_text = 60; // columns beside the bar, so that its width stays as the text grows
+
+std::string rate_text(double rate)
+{
+    return fmt::format("{:.{}f}/s", rate, rate < 10 ? 2 : rate < 100 ? 1 : 0);
+}
 
 nlohmann::json optional_number(const std::optional<double>& value) { return value ? nlohmann::json(*value) : nlohmann::json(nullptr); }
 
@@ -78,7 +84,7 @@ std::string Progress::counts(const State& state) const
     std::string text = fmt::format("{}", state.iterations);
     if (goal_.iterations) text += fmt::format("/{}", *goal_.iterations);
     text += " iterations";
-    if (state.rate) text += fmt::format(", {:.3g}/s", *state.rate);
+    if (state.rate) text += ", " + rate_text(*state.rate);
     text += ", " + format_duration(state.seconds);
     if (state.seconds_left) text += ", " + format_duration(*state.seconds_left) + " left";
     return text;
@@ -87,10 +93,8 @@ std::string Progress::counts(const State& state) const
 void Progress::print_bar(const State& state)
 {
     const std::string text = fmt::format(" {:3.0f}%  {}", 100.0 * state.fraction, counts(state));
-    const int room = columns_ - 1 - static_cast<int>(text.size()) - 2;
     std::string line;
-    if (room >= 10) {
-        const int width = std::min(room, 40);
+    if (const int width = std::min(columns_ - room_for_text, 40); width >= 10) {
         const int filled = static_cast<int>(std::floor(state.fraction * width));
         line = "[" + std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(width - filled), '.') + "]";
     }

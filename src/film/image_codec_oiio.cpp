@@ -50,6 +50,7 @@ std::string encode_exr(const Image& image, const std::filesystem::path& file)
     OIIO::ImageSpec spec(image.width, image.height, image.channel_count(), OIIO::TypeDesc::FLOAT);
     spec.channelnames = image.channels;
     spec.attribute("compression", "zip");
+    spec.attribute("DateTime", ""); // else OpenImageIO adds the time, and no two files are the same
     for (const auto& [name, value] : image.metadata) spec.attribute(std::string(attribute_prefix) + name, value);
     return encode_with("openexr", spec, OIIO::TypeDesc::FLOAT, image.pixels.data(), file);
 }
