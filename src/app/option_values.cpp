@@ -1,0 +1,48 @@
+#include "app/option_values.h"
+
+#include "base/errors.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace sundog {
+
+namespace {
+
+template <class Number> bool parse_whole(std::string_view text, Number& value)
+{
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size();
+}
+
+} // namespace
+
+std::map<std::string, std::string> parse_assignments(const std::string& option, const std::vector<std::string>& texts)
+{
+    std::map<std::string, std::string> values;
+    for (const std::string& text : texts) {
+        const auto equals = text.find('=');
+        if (equals == std::string::npos || equals == 0) throw UsageError(option + " needs NAME=VALUE, got \"" + text + "\"");
+        values[text.substr(0, equals)] = text.substr(equals + 1);
+    }
+    return values;
+}
+
+std::pair<int, int> parse_size(const std::string& text)
+{
+    const auto cross = text.find('x');
+    int width = 0, height = 0;
+    const std::string_view view = text;
+    if (cross == std::string::npos || !parse_whole(view.substr(0, cross), width) || !parse_whole(view.substr(cross + 1), height) || width < 1 || height < 1)
+        throw UsageError("--size needs WIDTHxHEIGHT in pixels, such as 1280x720, got \"" + text + "\"");
+    return {width, height};
+}
+
+double parse_finite(const std::string& option, const std::string& text)
+{
+    double value = 0.0;
+    if (!parse_whole(std::string_view(text), value) || !std::isfinite(value)) throw UsageError(option + " needs a number, got \"" + text + "\"");
+    return value;
+}
+
+} // namespace sundog

@@ -1,0 +1,20 @@
+// Values of command line options that have a form of their own. All throw UsageError.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sundog {
+
+// {"a=1", "b=x=y"} to {a: "1", b: "x=y"}; the last of several values counts. `option` is for messages.
+std::map<std::string, std::string> parse_assignments(const std::string& option, const std::vector<std::string>& texts);
+
+// "1920x1080"; both at least 1.
+std::pair<int, int> parse_size(const std::string& text);
+
+// The whole text as a finite number.
+double parse_finite(const std::string& option, const std::string& text);
+
+} // namespace sundog

@@ -1,0 +1,91 @@
+#include "app/scene_summary.h"
+
+#include "methods/method.h"
+#include "scene/bvh_build.h"
+#include "scene/flat_scene.h"
+#include "shared/film.h"
+
+#include <variant>
+
+namespace sundog {
+
+namespace {
+
+const char* kind(const TriangleMesh&) { return "mesh"; }
+const char* kind(const Sphere&) { return "sphere"; }
+const char* kind(const Disk&) { return "disk"; }
+const char* kind(const DiffuseBsdf&) { return "diffuse"; }
+const char* kind(const DielectricBsdf& bsdf) { return bsdf.thin ? "thindielectric" : "dielectric"; }
+const char* kind(const ConductorBsdf&) { return "conductor"; }
+const char* kind(const NullBsdf&) { return "null"; }
+const char* kind(const TwoSidedBsdf&) { return "twosided"; }
+const char* kind(const PointEmitter&) { return "point"; }
+const char* kind(const SpotEmitter&) { return "spot"; }
+const char* kind(const DirectionalEmitter&) { return "directional"; }
+const char* kind(const ConstantEmitter&) { return "constant"; }
+
+template <class Variant> void count(std::map<std::string, std::size_t>& counts, const Variant& variant)
+{
+    ++counts[std::visit([](const auto& value) { return kind(value); }, variant)];
+}
+
+const char* filter_name(FilterKind filter)
+{
+    switch (filter) {
+    case FilterKind::box: return "box";
+    case FilterKind::tent: return "tent";
+    case FilterKind::gaussian: return "gaussian";
+    case FilterKind::mitchell: return "mitchell";
+    }
+    return "";
+}
+
+template <class T> std::uint64_t bytes_of(const std::vector<T>& array) { return array.size() * sizeof(T); }
+
+std::uint64_t device_bytes(const FlatScene& flat, const Bvh& bvh)
+{
+    return bytes_of(flat.positions) + bytes_of(flat.normals) + bytes_of(flat.triangles) + bytes_of(flat.analytics) + bytes_of(flat.shapes) + bytes_of(flat.bsdfs) +
+           bytes_of(flat.lights) + bytes_of(flat.light_alias) + sizeof(SceneGlobals) + bytes_of(bvh.nodes) + bytes_of(bvh.blocks);
+}
+
+// The same checks as before a render.
+void check_integrator(const IntegratorRequest& request)
+{
+    if (request.method.empty()) return;
+    const MethodInfo* method = find_method(request.method);
+    if (!method) throw SceneError(request.where, "unknown method \"" + request.method + "\"; sundog methods lists them, --method chooses another");
+    std::map<std::string, ParameterValue> values;
+    for (const auto& [name, text] : request.parameters) values[name] = {text.value, text.where};
+    Parameters(request.method, method->parameters, values);
+}
+
+} // namespace
+
+SceneSummary summarize(const Scene& scene)
+{
+    check_integrator(scene.integrator);
+    const FlatScene flat = flatten_scene(scene);
+    const Bvh bvh = build_bvh({flat.positions, flat.triangles, flat.analytics});
+
+    SceneSummary summary;
+    summary.file = scene.file;
+    for (const ShapeDescription& shape : scene.shapes) {
+        count(summary.shapes, shape.geometry);
+        if (shape.emitter) ++summary.emitters["area"];
+    }
+    for (const BsdfDescription& bsdf : scene.bsdfs) count(summary.bsdfs, bsdf.model);
+    for (const EmitterDescription& emitter : scene.emitters) count(summary.emitters, emitter.model);
+    summary.triangles = scene.triangle_count();
+    summary.lights = flat.lights.size();
+    summary.bounds = scene.bounds();
+    summary.width = scene.film.crop_width;
+    summary.height = scene.film.crop_height;
+    summary.filter = filter_name(scene.film.filter.kind);
+    summary.method = scene.integrator.method;
+    for (const auto& [name, text] : scene.integrator.parameters) summary.parameters[name] = text.value;
+    summary.scene_bytes = device_bytes(flat, bvh);
+    summary.film_bytes = static_cast<std::uint64_t>(summary.width) * static_cast<std::uint64_t>(summary.height) * (sizeof(FilmPixel) + sizeof(FirstHitPixel));
+    return summary;
+}
+
+} // namespace sundog
