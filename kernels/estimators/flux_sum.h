@@ -2,6 +2,8 @@
 // afterwards [Hachisuka et al. 2008, section 4]. Used by sppm.
 #ifndef SUNDOG_ESTIMATOR_H
 #define SUNDOG_ESTIMATOR_H
+#include "math/sum8.h"
+#include "shared/photon.h"
 
 typedef struct Estimate {
     float8 red, green, blue;
@@ -23,16 +25,11 @@ inline void estimator_add(Estimate* estimate, int8 mask, float8 t_squared, float
     estimate->count -= mask;
 }
 
-inline float sum8(float8 v)
+// Flux (W, times emitted paths) and the number of photons.
+inline GatherSum estimator_end(const Estimate* estimate, float radius)
 {
-    const float4 a = v.lo + v.hi;
-    return (a.x + a.z) + (a.y + a.w);
-}
-
-// Flux (W, times emitted paths) and, in .w, the number of photons.
-inline float4 estimator_end(const Estimate* estimate, float radius)
-{
-    return (float4)(sum8(estimate->red), sum8(estimate->green), sum8(estimate->blue), sum8(convert_float8(estimate->count)));
+    const GatherSum sum = {{sum8(estimate->red), sum8(estimate->green), sum8(estimate->blue)}, sum8(convert_float8(estimate->count))};
+    return sum;
 }
 
 #endif

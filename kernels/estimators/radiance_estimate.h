@@ -3,6 +3,8 @@
 #ifndef SUNDOG_ESTIMATOR_H
 #define SUNDOG_ESTIMATOR_H
 #include "density/kernels.h"
+#include "math/sum8.h"
+#include "shared/photon.h"
 
 typedef struct Estimate {
     float8 red, green, blue;
@@ -19,16 +21,12 @@ inline void estimator_add(Estimate* estimate, int8 mask, float8 t_squared, float
     estimate->blue += weight * blue;
 }
 
-inline float sum8(float8 v)
+// Irradiance (W/m^2, times emitted paths).
+inline GatherSum estimator_end(const Estimate* estimate, float radius)
 {
-    const float4 a = v.lo + v.hi;
-    return (a.x + a.z) + (a.y + a.w);
-}
-
-// Irradiance-like sum (W/m^2, times emitted paths); .w is unused.
-inline float4 estimator_end(const Estimate* estimate, float radius)
-{
-    return (float4)(sum8(estimate->red), sum8(estimate->green), sum8(estimate->blue), 0.0f) * (KERNEL_NORM / (radius * radius));
+    const float scale = KERNEL_NORM / (radius * radius);
+    const GatherSum sum = {{sum8(estimate->red) * scale, sum8(estimate->green) * scale, sum8(estimate->blue) * scale}, 0.0f};
+    return sum;
 }
 
 #endif

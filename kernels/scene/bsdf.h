@@ -5,6 +5,7 @@
 #include "math/warp.h"
 #include "scene/fresnel.h"
 #include "scene/surface.h"
+#include "shared/path.h"
 
 // What a subpath carries: radiance is scaled by refraction, flux is not.
 #define CARRIES_RADIANCE 0 // camera subpaths

@@ -31,7 +31,7 @@ inline Ray distant_ray(const SurfaceView* scene, float3 direction, float2 u)
 // u: light, direction and position. [Veach 1997, section 8.3.1]
 inline EmissionSample sample_emission(const SurfaceView* scene, float4 u, float2 u_direction)
 {
-    const Light light = scene->lights[choose_light(scene, &u.z)];
+    const Light light = scene->lights[choose_light(scene, u.z)];
     const float3 emission = unpack(light.emission) / light.probability;
     const float disk_area = PI_F * scene->globals->radius * scene->globals->radius;
     EmissionSample sample;

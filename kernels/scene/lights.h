@@ -4,6 +4,7 @@
 #include "math/frame.h"
 #include "math/warp.h"
 #include "scene/surface.h"
+#include "shared/path.h"
 
 // A light as a shaded point sees it.
 typedef struct LightSample {
@@ -13,17 +14,14 @@ typedef struct LightSample {
     float pdf_w;      // 1/sr, the light's choice included; PDF_DELTA for point-like lights
 } LightSample;
 
-// Chooses a light by power with the alias table; the used number is rescaled to be used again.
-inline uint choose_light(const SurfaceView* scene, float* u)
+// Chooses a light by power with the alias table.
+inline uint choose_light(const SurfaceView* scene, float u)
 {
     const uint count = scene->globals->light_count;
-    const float scaled = *u * (float)count;
+    const float scaled = u * (float)count;
     const uint column = min((uint)scaled, count - 1u);
-    const float fraction = scaled - (float)column;
     const AliasEntry entry = scene->light_alias[column];
-    const bool keep = fraction < entry.threshold;
-    *u = clamp(keep ? fraction / entry.threshold : (fraction - entry.threshold) / (1.0f - entry.threshold), 0.0f, 0x1.fffffep-1f);
-    return keep ? column : entry.alias;
+    return scaled - (float)column < entry.threshold ? column : entry.alias;
 }
 
 // A point on an area light, uniform in area.
@@ -134,7 +132,7 @@ inline bool sample_area_light(const SurfaceView* scene, const Surface* surface, 
 // Samples the lights as seen from a surface. False: no light that way.
 inline bool sample_light(const SurfaceView* scene, const Surface* surface, float4 u, LightSample* sample)
 {
-    const Light light = scene->lights[choose_light(scene, &u.z)];
+    const Light light = scene->lights[choose_light(scene, u.z)];
     switch (light.type) {
     case LIGHT_POINT:
     case LIGHT_SPOT: {

@@ -53,5 +53,12 @@ typedef struct GatherQuery {
 } GatherQuery;
 SHARED_SIZE(GatherQuery, 48);
 
+// What an estimator made of the photons that a query found.
+typedef struct GatherSum {
+    Vec3 flux;   // W (estimators/flux_sum.h) or W/m^2 (radiance_estimate.h), times emitted paths
+    float count; // photons, where the estimator counts them
+} GatherSum;
+SHARED_SIZE(GatherSum, 16);
+
 SHARED_END
 #endif

@@ -43,12 +43,12 @@ inline void gather_run(PhotonRun run, const GatherQuery* query, __global const f
 }
 
 __kernel void gather_photons(PhotonGrid grid, __global const uint* restrict cell_ends, uint cell_ends_offset, __global const float* restrict streams,
-                             __global const GatherQuery* restrict queries, uint count, __global float4* restrict sums)
+                             __global const GatherQuery* restrict queries, uint count, __global GatherSum* restrict sums)
 {
     const uint index = get_global_id(0);
     if (index >= count) return;
     const GatherQuery query = queries[index];
-    float4 sum = (float4)(0.0f);
+    GatherSum sum = {{0.0f, 0.0f, 0.0f}, 0.0f};
     if (query.radius > 0.0f) {
         PhotonRun runs[8];
         const uint run_count = find_photon_runs(&grid, cell_ends + cell_ends_offset, unpack(query.position), runs);

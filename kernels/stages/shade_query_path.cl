@@ -19,7 +19,7 @@ inline GatherQuery make_query(const Surface* surface, const Scattering* scatteri
     return query;
 }
 
-__kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, uint width, uint height, __global const Hit* restrict hits,
+__kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, uint width, uint height, float radius, __global const Hit* restrict hits,
                                __global const uint* restrict active, __global const uint* restrict active_count, __global Ray* restrict rays,
                                __global PathState* restrict paths, __global Vec3* restrict radiance, __global Ray* restrict shadow_rays,
                                __global Vec3* restrict shadow_radiance, __global GatherQuery* restrict queries, __global uint* restrict flags)
@@ -51,7 +51,7 @@ __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rul
     Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
     const float4 u = next_4d(&sampler);
     if (!is_specular(&scattering)) {
-        queries[index] = make_query(&surface, &scattering, &path, rules, index, 1.0f);
+        queries[index] = make_query(&surface, &scattering, &path, rules, index, radius);
 #if DIRECT_LIGHT
         Ray shadow_ray;
         shadow_radiance[index] = pack(throughput * sample_direct_light(&scene, &surface, &scattering, u, false, &shadow_ray));

@@ -7,17 +7,17 @@
 
 #define PI 3.14159265358979f
 
-__kernel void update_progressive_pixels(__global const GatherQuery* restrict queries, __global const float4* restrict sums, uint count, float alpha,
+__kernel void update_progressive_pixels(__global const GatherQuery* restrict queries, __global const GatherSum* restrict sums, uint count, float alpha,
                                         float inverse_paths, __global ProgressivePixel* restrict pixels, __global Vec3* restrict radiance)
 {
     const uint index = get_global_id(0);
     if (index >= count) return;
     ProgressivePixel pixel = pixels[index];
     const float3 direct = unpack(radiance[index]);
-    const float found = sums[index].w;
+    const float found = sums[index].count;
     if (is_finite3(direct)) add_compensated3(&pixel.direct, &pixel.direct_error, direct);
-    if (queries[index].radius > 0.0f && found > 0.0f && is_finite3(sums[index].xyz)) {
-        const float3 flux = unpack(queries[index].throughput) * sums[index].xyz; // beta Psi
+    if (queries[index].radius > 0.0f && found > 0.0f && is_finite3(unpack(sums[index].flux))) {
+        const float3 flux = unpack(queries[index].throughput) * unpack(sums[index].flux); // beta Psi
         radiance[index] = pack(direct + flux * (inverse_paths / (PI * pixel.radius_squared)));
         const float before = pixel.count + pixel.count_error;
         const float shrink = (before + alpha * found) / (before + found); // (8): r'^2 / r^2

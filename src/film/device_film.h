@@ -1,0 +1,43 @@
+// The film on the device: what iterations add up to.
+#pragma once
+
+#include "device/kernel.h"
+#include "film/image.h"
+#include "shared/film.h"
+
+#include <cstdint>
+
+namespace sundog {
+
+// One entry a pixel of the crop, in path order (kernels/scene/camera_rays.h: tiles).
+class DeviceFilm {
+public:
+    DeviceFilm(Device& device, int width, int height);
+
+    // Adds one iteration's radiance (W/m^2/sr, one a pixel). Samples that are not finite are counted and left out.
+    void accumulate(const Buffer<Vec3>& radiance);
+
+    Buffer<FirstHitPixel> first_hits; // means, updated by camera paths
+
+    std::uint64_t iterations() const { return iterations_; }
+    std::uint64_t invalid_samples() const; // waits
+    int width() const { return width_; }
+    int height() const { return height_; }
+    std::size_t pixel_count() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
+
+    // Means of radiance, variance.{R,G,B} (of one iteration's radiance, unbiased), albedo, N and depth.
+    Image resolve() const;
+
+    // Row-major index of the pixel with this place in path order.
+    std::size_t pixel_of_path(std::size_t path) const;
+
+private:
+    int width_;
+    int height_;
+    Kernel accumulate_film_;
+    Buffer<FilmPixel> pixels_;
+    Buffer<uint> invalid_samples_;
+    std::uint64_t iterations_ = 0;
+};
+
+} // namespace sundog

@@ -1,0 +1,109 @@
+#include "methods/standard_parameters.h"
+
+#include <cmath>
+#include <limits>
+
+namespace sundog {
+
+namespace {
+
+constexpr double unlimited = 1e15;
+// Photons that a query should find in the first iteration.
+constexpr double target_photons = 10.0;
+
+} // namespace
+
+ParameterSpec iterations_spec()
+{
+    return {"iterations", ParameterType::integer, "0", "", "Iterations to render when the command line asks for none; 0: the scene's sample count, or 64.", 0,
+            unlimited, {}};
+}
+
+ParameterSpec max_depth_spec()
+{
+    return {"max_depth", ParameterType::integer, "-1", "edges",
+            "Longest path from light to camera; 1 shows only lights, 2 direct light, -1 has no bound (as in Mitsuba).", -1, 1e6, {}};
+}
+
+ParameterSpec rr_depth_spec(int default_depth, const std::string& paths)
+{
+    return {"rr_depth", ParameterType::integer, std::to_string(default_depth), "edges", "Depth from which Russian roulette may end " + paths + ".", 1, 1e6, {}};
+}
+
+ParameterSpec sampler_spec()
+{
+    return {"sampler", ParameterType::choice, "sobol", "",
+            "Random numbers: Owen-scrambled Sobol points (Burley 2020) or independent ones (Philox, Salmon et al. 2011).", 0, 0, {"sobol", "independent"}};
+}
+
+ParameterSpec photons_spec()
+{
+    return {"photons", ParameterType::integer, "0", "light subpaths", "Light subpaths traced in each iteration; 0: one a pixel.", 0, 4e9, {}};
+}
+
+ParameterSpec radius_spec()
+{
+    return {"radius", ParameterType::real, "0", "scene units",
+            "Radius of the first iteration's density estimate; 0: chosen from the scene's size and the number of light subpaths.", 0, unlimited, {}};
+}
+
+ParameterSpec alpha_spec()
+{
+    return {"alpha", ParameterType::real, "0.6666667", "",
+            "How slowly the radius shrinks; 2/3 balances bias and variance on surfaces (Kaplanyan and Dachsbacher 2013), 1 keeps it.", 0.01, 1.0, {}};
+}
+
+ParameterSpec direct_spec()
+{
+    return {"direct", ParameterType::choice, "nee", "",
+            "Light that reaches a surface straight from its source: by next-event estimation, or by photons as all other light.", 0, 0, {"nee", "photons"}};
+}
+
+ParameterSpec kernel_spec()
+{
+    return {"kernel", ParameterType::choice, "epanechnikov", "", "Smoothing kernel of the density estimate (Silverman 1986).", 0, 0,
+            {"uniform", "epanechnikov", "biweight", "triweight"}};
+}
+
+PathRules path_rules(const Parameters& parameters)
+{
+    const std::int64_t max_depth = parameters.integer("max_depth");
+    return {max_depth < 0 ? UNBOUNDED_DEPTH : static_cast<uint>(max_depth), static_cast<uint>(parameters.integer("rr_depth"))};
+}
+
+SamplerKind sampler_kind(const Parameters& parameters)
+{
+    return parameters.text("sampler") == "sobol" ? SamplerKind::sobol : SamplerKind::independent;
+}
+
+int density_kernel(const Parameters& parameters)
+{
+    const std::vector<std::string> names = kernel_spec().choices;
+    for (std::size_t n = 0; n < names.size(); n++)
+        if (names[n] == parameters.text("kernel")) return static_cast<int>(n);
+    return 0;
+}
+
+std::size_t light_path_count(const Parameters& parameters, std::size_t pixels)
+{
+    const std::int64_t photons = parameters.integer("photons");
+    return photons > 0 ? static_cast<std::size_t>(photons) : pixels;
+}
+
+float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths)
+{
+    const double radius = parameters.real("radius");
+    if (radius > 0.0) return static_cast<float>(radius);
+    // N photons on a sphere of radius R: N r^2 / (4 R^2) of them lie within r.
+    return static_cast<float>(2.0 * scene_radius * std::sqrt(target_photons / static_cast<double>(light_paths)));
+}
+
+double scheduled_radius(double first_radius, double alpha, int dimensions, std::uint64_t iteration)
+{
+    // prod_{i=1}^{n} (i + alpha) / (i + 1) = Gamma(n + 1 + alpha) / (Gamma(1 + alpha) Gamma(n + 2))
+    const double n = static_cast<double>(iteration);
+    const double log_ratio = std::lgamma(n + 1.0 + alpha) - std::lgamma(1.0 + alpha) - std::lgamma(n + 2.0);
+    return first_radius * std::exp(log_ratio / dimensions);
+}
+
+} // namespace sundog

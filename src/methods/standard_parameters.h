@@ -1,0 +1,35 @@
+// Parameters that many methods share, so that they mean the same everywhere.
+#pragma once
+
+#include "methods/parameters.h"
+#include "shared/path.h"
+#include "stages/sampling.h"
+
+namespace sundog {
+
+ParameterSpec iterations_spec();
+ParameterSpec max_depth_spec();
+ParameterSpec rr_depth_spec(int default_depth, const std::string& paths);
+ParameterSpec sampler_spec();
+ParameterSpec photons_spec();
+ParameterSpec radius_spec();
+ParameterSpec alpha_spec();
+ParameterSpec direct_spec();
+ParameterSpec kernel_spec();
+
+PathRules path_rules(const Parameters& parameters); // of max_depth and rr_depth
+SamplerKind sampler_kind(const Parameters& parameters);
+int density_kernel(const Parameters& parameters); // as DENSITY_KERNEL
+
+// Light subpaths an iteration: `photons`, or one a pixel.
+std::size_t light_path_count(const Parameters& parameters, std::size_t pixels);
+
+// `radius`, or, when that is 0, one within which a query finds a handful of photons if they spread evenly
+// over a sphere around the scene: it scales with the scene and with the number of light paths.
+float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths);
+
+// Radius of iteration i (from 0) in the schedule r_{i+1}^d = r_i^d (i + alpha) / (i + 1), i from 1
+// [Knaus and Zwicker 2011, eq. 20], closed by the gamma function so that any iteration can be asked for.
+double scheduled_radius(double first_radius, double alpha, int dimensions, std::uint64_t iteration);
+
+} // namespace sundog

@@ -1,0 +1,166 @@
+#include "render/session.h"
+
+#include "base/timer.h"
+#include "device/profile.h"
+#include "methods/render_context.h"
+#include "scene/flat_scene.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace sundog {
+
+namespace {
+
+constexpr const char* default_method = "sppm";
+constexpr std::uint64_t default_iterations = 64;
+
+const MethodInfo& choose_method(const Scene& scene, const RenderSettings& settings)
+{
+    const bool from_scene = settings.method.empty() && !scene.integrator.method.empty();
+    const std::string name = from_scene ? scene.integrator.method : settings.method.empty() ? default_method : settings.method;
+    if (const MethodInfo* info = find_method(name)) return *info;
+    std::vector<std::string> known;
+    for (const MethodInfo* info : all_methods()) known.push_back(info->name);
+    const std::string message = fmt::format("there is no method '{}'; choose one of {} (-m NAME)", name, fmt::join(known, ", "));
+    if (from_scene) throw SceneError(scene.integrator.where, message);
+    throw UsageError(message);
+}
+
+// The scene's values count for the scene's own method alone; the command line's always.
+Parameters choose_parameters(const Scene& scene, const RenderSettings& settings, const MethodInfo& method)
+{
+    std::map<std::string, ParameterValue> values;
+    const bool same_method = settings.method.empty() || settings.method == scene.integrator.method;
+    for (const auto& [name, text] : scene.integrator.parameters) {
+        const bool known = std::any_of(method.parameters.begin(), method.parameters.end(), [&](const ParameterSpec& spec) { return spec.name == name; });
+        if (same_method || known) values[name] = {text.value, text.where};
+    }
+    for (const auto& [name, text] : settings.parameters) values[name] = {text, {}};
+    return Parameters(method.name, method.parameters, values);
+}
+
+// Another film size keeps the field of view; a crop scales with it.
+Scene with_size(Scene scene, const RenderSettings& settings)
+{
+    if (!settings.size) return scene;
+    auto& film = scene.film;
+    const auto [width, height] = *settings.size;
+    const double sx = static_cast<double>(width) / film.width, sy = static_cast<double>(height) / film.height;
+    film.crop_x = static_cast<int>(film.crop_x * sx);
+    film.crop_y = static_cast<int>(film.crop_y * sy);
+    film.crop_width = std::clamp(static_cast<int>(film.crop_width * sx + 0.5), 1, width - film.crop_x);
+    film.crop_height = std::clamp(static_cast<int>(film.crop_height * sy + 0.5), 1, height - film.crop_y);
+    film.width = width;
+    film.height = height;
+    return scene;
+}
+
+} // namespace
+
+struct RenderSession::State {
+    State(Scene scene_in, Device& device_in, const RenderSettings& settings)
+        : scene(with_size(std::move(scene_in), settings)), device(device_in), info(choose_method(scene, settings)),
+          parameters(choose_parameters(scene, settings, info)), seed(settings.seed.value_or(scene.integrator.seed)), device_scene(device, scene),
+          camera(make_camera(scene.sensor, scene.film)), filter(make_pixel_filter(scene.film.filter)),
+          film(device, scene.film.crop_width, scene.film.crop_height), context{device, device_scene, camera, filter, film, seed},
+          method(info.create(context, parameters))
+    {
+    }
+
+    Scene scene;
+    Device& device;
+    const MethodInfo& info;
+    Parameters parameters;
+    std::uint64_t seed;
+    DeviceScene device_scene;
+    Camera camera;
+    PixelFilter filter;
+    DeviceFilm film;
+    RenderContext context;
+    std::unique_ptr<Method> method;
+    std::uint64_t iterations = 0;
+    double seconds = 0.0;
+};
+
+RenderSession::RenderSession(Scene scene, Device& device, const RenderSettings& settings) : state_(std::make_unique<State>(std::move(scene), device, settings)) {}
+
+RenderSession::~RenderSession() = default;
+
+std::uint64_t RenderSession::requested_iterations() const
+{
+    const std::int64_t asked = state_->parameters.integer("iterations");
+    if (asked > 0) return static_cast<std::uint64_t>(asked);
+    const int samples = state_->scene.integrator.sample_count;
+    return samples > 0 ? static_cast<std::uint64_t>(samples) : default_iterations;
+}
+
+void RenderSession::iterate()
+{
+    const Timer timer;
+    state_->method->render_pass(state_->iterations);
+    state_->device.finish();
+    state_->iterations++;
+    state_->seconds += timer.seconds();
+}
+
+std::uint64_t RenderSession::iterations_done() const
+{
+    return state_->iterations;
+}
+
+Image RenderSession::image() const
+{
+    Image image = state_->film.resolve();
+    state_->method->resolve(image);
+    const RenderStatistics s = statistics();
+    std::vector<std::string> parameters;
+    for (const auto& [name, value] : s.parameters) parameters.push_back(name + "=" + value);
+    image.metadata = {{"sundog:version", SUNDOG_VERSION},
+                      {"sundog:method", s.method},
+                      {"sundog:parameters", fmt::format("{}", fmt::join(parameters, " "))},
+                      {"sundog:seed", std::to_string(s.seed)},
+                      {"sundog:iterations", std::to_string(s.iterations)},
+                      {"sundog:light_subpaths", std::to_string(s.counters.light_subpaths)},
+                      {"sundog:camera_subpaths", std::to_string(s.counters.camera_subpaths)},
+                      {"sundog:device", s.device},
+                      {"sundog:seconds", fmt::format("{:.3f}", s.render_seconds)}};
+    return image;
+}
+
+RenderStatistics RenderSession::statistics() const
+{
+    RenderStatistics statistics;
+    statistics.method = state_->info.name;
+    statistics.parameters = state_->parameters.all();
+    statistics.seed = state_->seed;
+    statistics.device = state_->device.info().name;
+    statistics.iterations = state_->iterations;
+    statistics.counters = state_->method->counters();
+    statistics.render_seconds = state_->seconds;
+    Profile& profile = state_->device.profile();
+    statistics.kernel_build_seconds = profile.build_seconds();
+    for (const StageTime& stage : profile.stages()) statistics.stage_seconds.emplace_back(stage.label, stage.seconds);
+    statistics.peak_device_bytes = state_->device.peak_bytes();
+    statistics.invalid_samples = state_->film.invalid_samples();
+    return statistics;
+}
+
+const Scene& RenderSession::scene() const
+{
+    return state_->scene;
+}
+
+int RenderSession::width() const
+{
+    return state_->scene.film.crop_width;
+}
+
+int RenderSession::height() const
+{
+    return state_->scene.film.crop_height;
+}
+
+} // namespace sundog

@@ -1,0 +1,36 @@
+// The scene as the device's arrays: shapes flattened, lights listed, probabilities tabulated.
+#pragma once
+
+#include "scene/scene.h"
+#include "shared/camera.h"
+#include "shared/scene_arrays.h"
+
+#include <vector>
+
+namespace sundog {
+
+struct FlatScene {
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals; // one a position when any shape has them, else empty
+    std::vector<Triangle> triangles;
+    std::vector<AnalyticPrimitive> analytics;
+    std::vector<Shape> shapes;
+    std::vector<Bsdf> bsdfs;
+    std::vector<Light> lights;
+    std::vector<AliasEntry> light_alias; // one a light
+    SceneGlobals globals{}; // all but bvh_root
+};
+
+// Throws SceneError when no light has any power.
+FlatScene flatten_scene(const Scene& scene);
+
+// Vose's alias method for the given non-negative weights, of which at least one is positive; also gives each
+// column's normalised probability. [Vose 1991, IEEE TSE 17(9)]
+std::vector<AliasEntry> make_alias_table(const std::vector<double>& weights, std::vector<float>& probabilities);
+
+Camera make_camera(const Sensor& sensor, const Film& film);
+
+// Tabulates the film's reconstruction filter for sampling.
+PixelFilter make_pixel_filter(const ReconstructionFilter& filter);
+
+} // namespace sundog

@@ -1,0 +1,154 @@
+#include "scene/light_list.h"
+
+#include <numbers>
+
+namespace sundog {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// pi a b for a disk's conjugate half axes is the area of the parallelogram they span, times pi.
+float area_of(const AnalyticPrimitive& primitive)
+{
+    if (primitive.kind == ANALYTIC_SPHERE) return static_cast<float>(4.0 * pi) * primitive.radius * primitive.radius;
+    return static_cast<float>(pi) * length(cross(primitive.axis_u, primitive.axis_v));
+}
+
+float area_of(const FlatScene& flat, const Triangle& triangle)
+{
+    const Vec3 a = flat.positions[triangle.vertex[0]];
+    return 0.5f * length(cross(flat.positions[triangle.vertex[1]] - a, flat.positions[triangle.vertex[2]] - a));
+}
+
+void list_area_lights(const Scene& scene, FlatScene& flat)
+{
+    for (std::size_t i = 0; i < scene.shapes.size(); i++) {
+        if (!scene.shapes[i].emitter) continue;
+        Shape& shape = flat.shapes[i];
+        shape.first_light = static_cast<uint>(flat.lights.size());
+        Light light{};
+        light.emission = scene.shapes[i].emitter->radiance;
+        if (const auto* mesh = std::get_if<TriangleMesh>(&scene.shapes[i].geometry)) {
+            light.type = LIGHT_TRIANGLE;
+            for (uint t = 0; t < mesh->triangles.size(); t++) {
+                light.primitive = shape.first_primitive + t;
+                light.area = area_of(flat, flat.triangles[light.primitive]);
+                flat.lights.push_back(light);
+            }
+        } else {
+            const AnalyticPrimitive& primitive = flat.analytics[shape.first_primitive];
+            light.type = primitive.kind == ANALYTIC_SPHERE ? LIGHT_SPHERE : LIGHT_DISK;
+            light.primitive = shape.first_primitive | ANALYTIC_BIT;
+            light.area = area_of(primitive);
+            flat.lights.push_back(light);
+        }
+    }
+}
+
+struct EmitterFlattener {
+    Light operator()(const PointEmitter& point) const
+    {
+        Light light{};
+        light.type = LIGHT_POINT;
+        light.emission = point.intensity;
+        light.position = point.position;
+        return light;
+    }
+    Light operator()(const SpotEmitter& spot) const
+    {
+        Light light{};
+        light.type = LIGHT_SPOT;
+        light.emission = spot.intensity;
+        light.position = spot.position;
+        light.direction = spot.direction;
+        light.cutoff_angle = spot.cutoff_angle;
+        light.beam_width = spot.beam_width;
+        return light;
+    }
+    Light operator()(const DirectionalEmitter& directional) const
+    {
+        Light light{};
+        light.type = LIGHT_DIRECTIONAL;
+        light.emission = directional.irradiance;
+        light.direction = directional.direction;
+        return light;
+    }
+    Light operator()(const ConstantEmitter& constant) const
+    {
+        Light light{};
+        light.type = LIGHT_CONSTANT;
+        light.emission = constant.radiance;
+        return light;
+    }
+};
+
+// Flux (W) into the scene, whose bounding sphere's radius bounds what distant lights send.
+double power_of(const Light& light, double scene_radius)
+{
+    const double disk = pi * scene_radius * scene_radius;
+    const double emission = max_component(light.emission);
+    switch (light.type) {
+    case LIGHT_POINT: return emission * 4.0 * pi;
+    // Half of the fall-off region counts: near enough for a probability.
+    case LIGHT_SPOT: return emission * 2.0 * pi * (1.0 - std::cos(0.5 * (static_cast<double>(light.cutoff_angle) + light.beam_width)));
+    case LIGHT_DIRECTIONAL: return emission * disk;
+    case LIGHT_CONSTANT: return emission * pi * 4.0 * disk;
+    default: return emission * pi * static_cast<double>(light.area);
+    }
+}
+
+} // namespace
+
+std::vector<AliasEntry> make_alias_table(const std::vector<double>& weights, std::vector<float>& probabilities)
+{
+    const std::size_t n = weights.size();
+    double total = 0.0;
+    for (double w : weights) total += w;
+    std::vector<AliasEntry> table(n);
+    std::vector<double> scaled(n);
+    std::vector<uint> small, large;
+    probabilities.resize(n);
+    for (std::size_t i = 0; i < n; i++) {
+        probabilities[i] = static_cast<float>(weights[i] / total);
+        scaled[i] = weights[i] / total * static_cast<double>(n);
+        (scaled[i] < 1.0 ? small : large).push_back(static_cast<uint>(i));
+    }
+    while (!small.empty() && !large.empty()) {
+        const uint s = small.back(), l = large.back();
+        small.pop_back();
+        table[s] = {static_cast<float>(scaled[s]), l};
+        scaled[l] -= 1.0 - scaled[s];
+        if (scaled[l] < 1.0) {
+            large.pop_back();
+            small.push_back(l);
+        }
+    }
+    for (uint i : small) table[i] = {1.0f, i}; // left by rounding: full columns
+    for (uint i : large) table[i] = {1.0f, i};
+    return table;
+}
+
+void list_lights(const Scene& scene, FlatScene& flat)
+{
+    list_area_lights(scene, flat);
+    flat.globals.constant_light = NO_LIGHT;
+    for (const auto& emitter : scene.emitters) {
+        if (std::holds_alternative<ConstantEmitter>(emitter.model)) flat.globals.constant_light = static_cast<uint>(flat.lights.size());
+        flat.lights.push_back(std::visit(EmitterFlattener{}, emitter.model));
+    }
+
+    std::vector<double> powers;
+    double total = 0.0;
+    for (const Light& light : flat.lights) {
+        powers.push_back(power_of(light, flat.globals.radius));
+        total += powers.back();
+    }
+    if (!(total > 0.0)) throw SceneError({scene.file, 0}, "no light has any power; add an <emitter> with a positive radiance or intensity");
+    std::vector<float> probabilities;
+    flat.light_alias = make_alias_table(powers, probabilities);
+    for (std::size_t i = 0; i < flat.lights.size(); i++) flat.lights[i].probability = probabilities[i];
+    flat.globals.light_count = static_cast<uint>(flat.lights.size());
+}
+
+} // namespace sundog

@@ -1,0 +1,28 @@
+#include "stages/camera_paths.h"
+
+namespace sundog {
+
+CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler)
+    : camera_(camera), count_(static_cast<std::size_t>(camera.crop_width) * static_cast<std::size_t>(camera.crop_height)),
+      filter_(device, std::vector{filter}, "pixel filter"), record_first_hits_(device, "record_first_hits", "Record first hits")
+{
+    radiance = Buffer<Vec3>(device, count_, "radiance");
+    BuildOptions options;
+    use_sampler(options, sampler);
+    generate_camera_rays_ = Kernel(device, "generate_camera_rays", "Generate camera rays", options);
+}
+
+void CameraPaths::start(const DeviceScene& scene, PathPool& pool, SamplerKey key)
+{
+    generate_camera_rays_(count_, camera_, filter_, key, static_cast<uint>(count_), pool.rays, pool.paths, radiance, pool.active());
+    pool.start(count_);
+    pool.trace(scene);
+}
+
+void CameraPaths::record_first_hits(const DeviceScene& scene, PathPool& pool, std::uint64_t iteration, Buffer<FirstHitPixel>& first_hits)
+{
+    const float inverse_iterations = 1.0f / static_cast<float>(iteration + 1);
+    record_first_hits_(count_, scene.surfaces(), pool.rays, pool.hits, static_cast<uint>(count_), inverse_iterations, first_hits);
+}
+
+} // namespace sundog

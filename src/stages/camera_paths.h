@@ -1,0 +1,38 @@
+// Camera paths: their start, what they see first, and the radiance they bring back.
+#pragma once
+
+#include "shared/camera.h"
+#include "shared/film.h"
+#include "stages/path_pool.h"
+#include "stages/sampling.h"
+
+namespace sundog {
+
+// One path a pixel of the crop.
+class CameraPaths {
+public:
+    CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler);
+
+    // Starts the pool's paths at the camera, finds their first hits, and clears `radiance`.
+    void start(const DeviceScene& scene, PathPool& pool, SamplerKey key);
+
+    // Adds the first hits to the albedo, normal and depth means; `iteration` counts from 0.
+    void record_first_hits(const DeviceScene& scene, PathPool& pool, std::uint64_t iteration, Buffer<FirstHitPixel>& first_hits);
+
+    Buffer<Vec3> radiance; // W/m^2/sr of this iteration, by path
+
+    std::size_t count() const { return count_; }
+    uint width() const { return static_cast<uint>(camera_.crop_width); }
+    uint height() const { return static_cast<uint>(camera_.crop_height); }
+    const Camera& camera() const { return camera_; }
+    const Buffer<PixelFilter>& filter() const { return filter_; }
+
+private:
+    Camera camera_;
+    std::size_t count_;
+    Buffer<PixelFilter> filter_;
+    Kernel generate_camera_rays_;
+    Kernel record_first_hits_;
+};
+
+} // namespace sundog

@@ -1,0 +1,42 @@
+#include "stages/light_paths.h"
+
+namespace sundog {
+
+PhotonTracer::PhotonTracer(Device& device, const PhotonTracerSettings& settings)
+    : settings_(settings), deposits_(device, settings.paths, "photon deposits"), photons_(device, "photons", settings.paths)
+{
+    BuildOptions options;
+    use_sampler(options, settings.sampler);
+    emit_light_paths_ = Kernel(device, "emit_light_paths", "Emit light paths", options);
+    options.defines.emplace_back("DIRECT_LIGHT", settings.direct_light_elsewhere ? "1" : "0");
+    shade_photon_path_ = Kernel(device, "shade_photon_path", "Shade photon paths", options);
+}
+
+void PhotonTracer::trace_once(const DeviceScene& scene, PathPool& pool, SamplerKey key)
+{
+    const uint count = static_cast<uint>(settings_.paths);
+    photons_.clear();
+    emit_light_paths_(count, scene.surfaces(), key, count, pool.rays, pool.paths, pool.active());
+    pool.start(count);
+    do {
+        pool.trace(scene);
+        shade_photon_path_(pool.items(), scene.surfaces(), key, settings_.rules, count, pool.hits, pool.active(), pool.active_count(), pool.rays, pool.paths,
+                           deposits_, pool.flags);
+        photons_.append(pool.compaction, deposits_, pool.flags, pool.active_count(), pool.items());
+    } while (pool.keep_alive());
+}
+
+std::size_t PhotonTracer::trace(const DeviceScene& scene, PathPool& pool, SamplerKey key)
+{
+    trace_once(scene, pool, key);
+    std::size_t stored = photons_.read_count();
+    if (stored > photons_.capacity()) {
+        // Paths are a pure function of the key: the same photons come again, with room for all.
+        photons_.grow(stored);
+        trace_once(scene, pool, key);
+        stored = photons_.read_count();
+    }
+    return stored;
+}
+
+} // namespace sundog

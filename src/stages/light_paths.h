@@ -1,0 +1,36 @@
+// Light paths that leave photons.
+#pragma once
+
+#include "shared/photon.h"
+#include "stages/path_pool.h"
+#include "stages/sampling.h"
+
+namespace sundog {
+
+struct PhotonTracerSettings {
+    std::size_t paths = 0; // light subpaths an iteration
+    PathRules rules{};
+    bool direct_light_elsewhere = false; // leave out photons straight from a light
+    SamplerKind sampler = SamplerKind::sobol;
+};
+
+class PhotonTracer {
+public:
+    PhotonTracer(Device& device, const PhotonTracerSettings& settings);
+
+    // Traces one iteration's light paths to their ends. Returns the number of photons stored.
+    std::size_t trace(const DeviceScene& scene, PathPool& pool, SamplerKey key);
+
+    const RecordList<Photon>& photons() const { return photons_; }
+
+private:
+    void trace_once(const DeviceScene& scene, PathPool& pool, SamplerKey key);
+
+    PhotonTracerSettings settings_;
+    Kernel emit_light_paths_;
+    Kernel shade_photon_path_;
+    Buffer<Photon> deposits_;
+    RecordList<Photon> photons_;
+};
+
+} // namespace sundog

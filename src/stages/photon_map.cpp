@@ -1,0 +1,62 @@
+#include "stages/photon_map.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace sundog {
+
+namespace {
+
+// Cells of the table for each photon: more makes cells emptier, fewer keeps the table in cache.
+constexpr std::size_t cells_per_photon = 1;
+constexpr std::size_t min_table_size = std::size_t(1) << 12;
+constexpr std::size_t max_table_size = std::size_t(1) << 22;
+
+} // namespace
+
+PhotonGrid make_photon_grid(const Bounds& bounds, float largest_radius, uint table_size, uint stride)
+{
+    PhotonGrid grid{};
+    const Vec3 extent = bounds.extent();
+    // Finer than 2^20 cells along an axis a float can no longer tell cells apart.
+    const double cell = std::max(2.0 * static_cast<double>(largest_radius), static_cast<double>(max_component(extent)) / (1 << 20));
+    const auto cells_along = [&](float length) { return static_cast<uint>(static_cast<double>(length) / cell) + 1; };
+    grid.origin = bounds.lower;
+    grid.inverse_cell_size = static_cast<float>(1.0 / cell);
+    grid.cells_x = cells_along(extent.x);
+    grid.cells_y = cells_along(extent.y);
+    grid.cells_z = cells_along(extent.z);
+    const double cells = static_cast<double>(grid.cells_x) * grid.cells_y * grid.cells_z;
+    grid.hashed = cells > static_cast<double>(table_size) ? 1 : 0;
+    grid.cell_count = table_size;
+    grid.stride = stride;
+    return grid;
+}
+
+PhotonMap::PhotonMap(Device& device, const Bounds& bounds)
+    : device_(&device), bounds_(bounds), photon_cell_keys_(device, "photon_cell_keys", "Find photon cells"),
+      reorder_photons_(device, "reorder_photons", "Lay out photons")
+{
+}
+
+void PhotonMap::reserve(std::size_t photons)
+{
+    if (sort_ && sort_->capacity() >= photons) return;
+    sort_.reset();
+    streams_ = {};
+    table_size_ = static_cast<uint>(std::clamp(std::bit_ceil(photons * cells_per_photon), min_table_size, max_table_size));
+    sort_ = std::make_unique<KeySort>(*device_, photons, table_size_);
+    streams_ = Buffer<float>(*device_, PHOTON_STREAMS * (photons + PHOTON_PADDING), "photon streams");
+}
+
+void PhotonMap::build(const RecordList<Photon>& photons, std::size_t count, float largest_radius)
+{
+    reserve(photons.capacity());
+    const std::size_t stride = photons.capacity() + PHOTON_PADDING;
+    grid_ = make_photon_grid(bounds_, largest_radius, table_size_, static_cast<uint>(stride));
+    photon_cell_keys_(count, grid_, photons.records(), photons.count(), sort_->keys);
+    sort_->sort(photons.count(), count);
+    reorder_photons_(count, photons.records(), sort_->order(), photons.count(), grid_.stride, streams_);
+}
+
+} // namespace sundog

@@ -1,0 +1,43 @@
+// The photon map: photons of one iteration in a grid, found by position.
+#pragma once
+
+#include "shared/photon.h"
+#include "stages/compaction.h"
+#include "stages/device_scene.h"
+#include "stages/key_sort.h"
+
+#include <memory>
+
+namespace sundog {
+
+class PhotonMap {
+public:
+    // bounds: of everything that photons lie on.
+    PhotonMap(Device& device, const Bounds& bounds);
+
+    // Sorts the photons into cells for queries of at most `largest_radius` (scene units). `count` of them,
+    // as the host knows it.
+    void build(const RecordList<Photon>& photons, std::size_t count, float largest_radius);
+
+    const PhotonGrid& grid() const { return grid_; }
+    const Buffer<uint>& cell_ends() const { return sort_->ends(); }
+    uint cell_ends_offset() const { return sort_->ends_offset(); }
+    const Buffer<float>& streams() const { return streams_; }
+
+private:
+    void reserve(std::size_t photons);
+
+    Device* device_;
+    Bounds bounds_;
+    Kernel photon_cell_keys_;
+    Kernel reorder_photons_;
+    std::unique_ptr<KeySort> sort_;
+    Buffer<float> streams_;
+    uint table_size_ = 0;
+    PhotonGrid grid_{};
+};
+
+// The grid for a radius: dense when its cells fit the table, else rows hashed into it. Pure, for tests.
+PhotonGrid make_photon_grid(const Bounds& bounds, float largest_radius, uint table_size, uint stride);
+
+} // namespace sundog
