@@ -43,6 +43,12 @@ Device::State::State(const DeviceInfo& device_info, const cl::Device& cl_device)
     check(code, "clCreateCommandQueue", "the renderer", *this);
 }
 
+Device::State::~State()
+{
+    queue.finish();
+    programs.store_all();
+}
+
 Device::Device(const DeviceInfo& info) : state_(std::make_shared<State>(info, find_opencl_device(info))) {}
 
 Device::Device(Device&&) noexcept = default;

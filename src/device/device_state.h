@@ -11,6 +11,9 @@ namespace sundog
 
 struct Device::State {
     State(const DeviceInfo& device_info, const cl::Device& cl_device);
+    ~State();
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
 
     DeviceInfo info;
     cl::Device device;

@@ -40,6 +40,13 @@ void EventProfile::add_build_seconds(double seconds)
     build_seconds_ += seconds;
 }
 
+void EventProfile::add_program(double seconds, bool from_cache)
+{
+    std::lock_guard lock(mutex_);
+    build_seconds_ += seconds;
+    ++(from_cache ? programs_loaded_ : programs_built_);
+}
+
 std::vector<StageTime> EventProfile::stages()
 {
     std::lock_guard lock(mutex_);
@@ -53,6 +60,18 @@ double EventProfile::build_seconds() const
     return build_seconds_;
 }
 
+std::uint64_t EventProfile::programs_built() const
+{
+    std::lock_guard lock(mutex_);
+    return programs_built_;
+}
+
+std::uint64_t EventProfile::programs_loaded() const
+{
+    std::lock_guard lock(mutex_);
+    return programs_loaded_;
+}
+
 void EventProfile::reset()
 {
     std::lock_guard lock(mutex_);
@@ -60,6 +79,8 @@ void EventProfile::reset()
     stages_.clear();
     index_.clear();
     build_seconds_ = 0.0;
+    programs_built_ = 0;
+    programs_loaded_ = 0;
 }
 
 std::size_t EventProfile::stage_index(const std::string& label)

@@ -23,9 +23,12 @@ public:
     // Takes the event of one launch of the stage. Throws DeviceError if an earlier launch failed on the device.
     void add(const std::string& label, cl::Event event);
     void add_build_seconds(double seconds);
+    void add_program(double seconds, bool from_cache);
 
     std::vector<StageTime> stages() override;
     double build_seconds() const override;
+    std::uint64_t programs_built() const override;
+    std::uint64_t programs_loaded() const override;
     void reset() override;
 
 private:
@@ -45,6 +48,8 @@ private:
     std::unordered_map<std::string, std::size_t> index_;
     std::deque<Pending> pending_;
     double build_seconds_ = 0.0;
+    std::uint64_t programs_built_ = 0;
+    std::uint64_t programs_loaded_ = 0;
 };
 
 } // namespace sundog

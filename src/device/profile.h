@@ -20,7 +20,10 @@ class Profile
 public:
     virtual ~Profile() = default;
     virtual std::vector<StageTime> stages() = 0; // waits for the device; in order of first launch
+    // Building or loading programs, and generating code at first launches.
     virtual double build_seconds() const = 0;
+    virtual std::uint64_t programs_built() const = 0;  // from source
+    virtual std::uint64_t programs_loaded() const = 0; // from the disk cache
     virtual void reset() = 0;
 };
 

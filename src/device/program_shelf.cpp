@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 namespace sundog
@@ -55,27 +56,22 @@ cl::Program from_source(Device::State& device, const std::string& name, const st
                                   opencl_error_name(code), log));
 }
 
-} // namespace
+// Nothing built for so long: the kernels of a render have all run.
+constexpr std::chrono::seconds idle_time(2);
 
-Program::Program(cl::Program program, std::string key, bool from_cache)
-    : program_(std::move(program)), cache_key_(std::move(key)), stored_(from_cache)
+void store(const Program& program)
 {
-}
-
-void Program::store()
-{
-    std::lock_guard lock(mutex_);
-    if (stored_) return;
-    stored_ = true;
     cl_int code = CL_SUCCESS;
-    const auto binaries = program_.getInfo<CL_PROGRAM_BINARIES>(&code);
+    const auto binaries = program.program.getInfo<CL_PROGRAM_BINARIES>(&code);
     if (code != CL_SUCCESS || binaries.size() != 1 || binaries.front().empty()) {
         log_debug(fmt::format("the driver gives no program binary: {}", opencl_error_name(code)));
         return;
     }
     const auto& binary = binaries.front();
-    store_cached_binary(cache_key_, {reinterpret_cast<const char*>(binary.data()), binary.size()});
+    store_cached_binary(program.cache_key, {reinterpret_cast<const char*>(binary.data()), binary.size()});
 }
+
+} // namespace
 
 std::shared_ptr<Program> ProgramShelf::get(Device::State& device, const std::string& name, const std::string& text)
 {
@@ -83,17 +79,41 @@ std::shared_ptr<Program> ProgramShelf::get(Device::State& device, const std::str
     const std::string key = cache_key(device.info, text);
     if (auto shared = programs_[key].lock()) return shared;
 
-    const auto begin = std::chrono::steady_clock::now();
+    const auto begin = Clock::now();
     cl::Program program = from_binary(device, key);
     const bool cached = program() != nullptr;
     if (!cached) program = from_source(device, name, text);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    device.profile.add_build_seconds(seconds.count());
+    const std::chrono::duration<double> seconds = Clock::now() - begin;
+    device.profile.add_program(seconds.count(), cached);
     log_debug(fmt::format("program '{}' {} in {:.3f} s", name, cached ? "loaded" : "built", seconds.count()));
 
-    auto made = std::make_shared<Program>(std::move(program), key, cached);
+    auto made = std::make_shared<Program>(Program{std::move(program), key, cached});
     programs_[key] = made;
+    last_build_ = Clock::now();
     return made;
+}
+
+void ProgramShelf::generated_code(const std::shared_ptr<Program>& program)
+{
+    std::lock_guard lock(mutex_);
+    last_build_ = Clock::now();
+    if (program->from_cache) return;
+    if (std::find(unstored_.begin(), unstored_.end(), program) == unstored_.end()) unstored_.push_back(program);
+}
+
+void ProgramShelf::store_when_idle()
+{
+    std::lock_guard lock(mutex_);
+    if (unstored_.empty() || Clock::now() - last_build_ < idle_time) return;
+    store(*unstored_.back());
+    unstored_.pop_back();
+}
+
+void ProgramShelf::store_all()
+{
+    std::lock_guard lock(mutex_);
+    for (const auto& program : unstored_) store(*program);
+    unstored_.clear();
 }
 
 } // namespace sundog

@@ -87,5 +87,135 @@ TEST_F(DeviceKernel, RefusesWrongArgumentTypesByName)
     EXPECT_THAT(too_many, HasSubstr("5 arguments"));
 }
 
+struct NumberedBuffers {
+    Buffer<uint> numbers;
+    Buffer<float> results;
+};
+
+void bind(ArgumentBinder& binder, const NumberedBuffers& buffers)
+{
+    bind(binder, buffers.numbers);
+    bind(binder, buffers.results);
+}
+
+TEST_F(DeviceKernel, BindsCompositesByTheirOwnFunction)
+{
+    const Kernel weigh = Kernel::from_source(device_, "weigh", "Weigh", block_source);
+    const NumberedBuffers buffers{{device_, std::vector<uint>(4, 49u), "numbers"}, {device_, 4, "results"}};
+    ParameterBlock block{};
+    block.weights[49] = 2.0f;
+    block.tint.y = 3.0f;
+    weigh(4, buffers, block, 4u, ulong(0));
+    EXPECT_EQ(buffers.results.download(), std::vector<float>(4, 6.0f));
+}
+
+// Rounded up to whole groups, every item runs once, whatever the group size; a group size of its own wins.
+TEST_F(DeviceKernel, RunsEveryItemOnceForAnyGroupSize)
+{
+    constexpr std::string_view source = R"(
+        __kernel void visit(__global uint* visits, __global uint* group_size, const uint count)
+        {
+            uint i = get_global_id(0);
+            if (i == 0u) group_size[0] = (uint)get_local_size(0);
+            if (i < count) atomic_inc(&visits[i]);
+        })";
+    const Kernel visit = Kernel::from_source(device_, "visit", "Visit", source);
+    Buffer<uint> group_size(device_, 1, "group size");
+    for (const std::size_t group : {1, 7, 64, 256, 4096}) {
+        device_.set_work_group_size(group);
+        for (const std::size_t items : {1, 1000, 70'000, 5}) {
+            Buffer<uint> visits(device_, items, "visits");
+            visits.fill(0u);
+            visit(items, visits, group_size, uint(items));
+            ASSERT_EQ(visits.download(), std::vector<uint>(items, 1u)) << group << " " << items;
+            EXPECT_EQ(group_size.read(0), device_.work_group_size());
+        }
+    }
+    Buffer<uint> visits(device_, 10, "visits");
+    visits.fill(0u);
+    visit.launch_grouped(10, 2, visits, group_size, 10u);
+    EXPECT_EQ(group_size.read(0), 2u);
+    EXPECT_EQ(visits.download(), std::vector<uint>(10, 1u));
+}
+
+TEST_F(DeviceKernel, DoesNothingForNoItems)
+{
+    const Kernel write = Kernel::from_source(device_, "write", "Write", "__kernel void write(__global uint* o) { o[0] = 1u; }");
+    Buffer<uint> output(device_, 1, "output");
+    output.fill(0u);
+    write(0, output);
+    EXPECT_EQ(output.read(0), 0u);
+    EXPECT_THAT(message_of([&] { write(0, output, output); }), HasSubstr("1 arguments"));
+}
+
+TEST_F(DeviceKernel, ReportsTheBuildLogWithFilesOfTheSources)
+{
+    try {
+        Kernel::from_source(device_, "broken", "Broken",
+                            "#include \"shared/ray.h\"\n\n__kernel void broken(__global Ray* r)\n{ r->nonsense = 1; }\n");
+        FAIL() << "it builds";
+    } catch (const DeviceError& error) {
+        EXPECT_THAT(error.what(),
+                    testing::AllOf(HasSubstr("clBuildProgram"), HasSubstr("'broken'"), HasSubstr(device_.info().name),
+                                   HasSubstr("CL_BUILD_PROGRAM_FAILURE (-11)"), HasSubstr("broken.cl:4"), HasSubstr("nonsense")));
+    }
+    try {
+        Kernel::from_source(device_, "absent", "Absent", "__kernel void present(__global int* o) { o[0] = 1; }");
+        FAIL() << "there is no such kernel";
+    } catch (const DeviceError& error) {
+        EXPECT_THAT(error.what(),
+                    testing::AllOf(HasSubstr("clCreateKernel"), HasSubstr("'absent'"), HasSubstr("CL_INVALID_KERNEL_NAME (-46)")));
+    }
+    EXPECT_THAT(message_of([&] { Kernel(device_, "no_such_stage", "None"); }), HasSubstr("stages/no_such_stage.cl"));
+}
+
+TEST_F(DeviceKernel, SharesProgramsOfOneSource)
+{
+    const std::string source = "__kernel void shared_program(__global int* o) { o[get_global_id(0)] = 1; }";
+    const Kernel first = Kernel::from_source(device_, "shared_program", "First", source);
+    const Kernel second = Kernel::from_source(device_, "shared_program", "Second", source);
+    EXPECT_EQ(device_.profile().programs_built() + device_.profile().programs_loaded(), 1u);
+}
+
+TEST_F(DeviceKernel, ProfilesEveryLaunchByLabel)
+{
+    const Kernel one =
+        Kernel::from_source(device_, "one", "First phrase", "__kernel void one(__global int* o) { o[get_global_id(0)] = 1; }");
+    const Kernel two =
+        Kernel::from_source(device_, "two", "Second phrase", "__kernel void two(__global int* o) { o[get_global_id(0)] = 2; }");
+    Buffer<int> output(device_, 256, "output");
+    two(256, output);
+    for (int i = 0; i < 10'000; ++i) one(256, output); // more than are kept as events
+    two(256, output);
+    const auto stages = device_.profile().stages();
+    ASSERT_EQ(stages.size(), 2u);
+    EXPECT_EQ(stages[0].label, "Second phrase");
+    EXPECT_EQ(stages[0].launches, 2u);
+    EXPECT_EQ(stages[1].label, "First phrase");
+    EXPECT_EQ(stages[1].launches, 10'000u);
+    EXPECT_GT(stages[1].seconds, 0.0);
+    EXPECT_LT(stages[1].seconds, 60.0);
+    EXPECT_GT(device_.profile().build_seconds(), 0.0);
+    device_.profile().reset();
+    EXPECT_TRUE(device_.profile().stages().empty());
+    one(256, output);
+    EXPECT_EQ(device_.profile().stages().at(0).launches, 1u);
+}
+
+TEST_F(DeviceKernel, ServesTwoDevicesSideBySide)
+{
+    Device other(select_device(""));
+    const std::string source = "__kernel void add(__global int* o, const int step) { o[get_global_id(0)] += step; }";
+    const Kernel here = Kernel::from_source(device_, "add", "Add", source), there = Kernel::from_source(other, "add", "Add", source);
+    other.set_work_group_size(16);
+    Buffer<int> a(device_, std::vector<int>(256, 1), "a"), b(other, std::vector<int>(256, 10), "b");
+    for (int i = 0; i < 100; ++i) {
+        here(256, a, 1);
+        there(256, b, 2);
+    }
+    EXPECT_EQ(a.download(), std::vector<int>(256, 101));
+    EXPECT_EQ(b.download(), std::vector<int>(256, 210));
+}
+
 } // namespace
 } // namespace sundog
