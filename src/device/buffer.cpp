@@ -5,7 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <utility>
 
 #include <sys/mman.h>
@@ -121,12 +125,23 @@ void RawBuffer::read(std::size_t offset, void* target, std::size_t bytes) const
     check(code, "clEnqueueReadBuffer", fmt::format("buffer '{}'", label_), *device_);
 }
 
+// PoCL writes a wide pattern two to five times as fast as a word: the pattern is repeated as often as the allocation,
+// a multiple of the alignment, allows.
 void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes)
 {
     assert(memory_ && bytes_ % pattern_bytes == 0);
     if (bytes_ == 0) return;
+    std::array<std::byte, 2 * small_alignment> wide;
+    std::size_t wide_bytes = 0, filled = bytes_;
+    if (small_alignment % pattern_bytes == 0) {
+        for (; wide_bytes < small_alignment; wide_bytes += pattern_bytes) std::memcpy(wide.data() + wide_bytes, pattern, pattern_bytes);
+        filled = allocated_;
+    } else {
+        assert(pattern_bytes == wide.size());
+        std::memcpy(wide.data(), pattern, wide_bytes = pattern_bytes);
+    }
     cl_event event = nullptr;
-    const cl_int code = clEnqueueFillBuffer(device_->queue(), handle(memory_), pattern, pattern_bytes, 0, bytes_, 0, nullptr, &event);
+    const cl_int code = clEnqueueFillBuffer(device_->queue(), handle(memory_), wide.data(), wide_bytes, 0, filled, 0, nullptr, &event);
     check(code, "clEnqueueFillBuffer", fmt::format("buffer '{}'", label_), *device_);
     device_->profile.add("Fill buffers", cl::Event(event));
 }

@@ -3,6 +3,7 @@
 
 #include "device/device.h"
 
+#include <bit>
 #include <cassert>
 #include <span>
 #include <type_traits>
@@ -71,7 +72,12 @@ public:
     }
     std::vector<T> download() const { return download(0, size_); }
     T read(std::size_t index) const { return download(index, 1).front(); }
-    void fill(T value) { raw_.fill(&value, sizeof(T)); } // sizeof(T) a power of two <= 128
+    // Sets all elements to the value; enqueues.
+    void fill(T value)
+    {
+        static_assert(std::has_single_bit(sizeof(T)) && sizeof(T) <= 128, "OpenCL fills with patterns of 1, 2, 4 ... 128 bytes");
+        raw_.fill(&value, sizeof(T));
+    }
     const RawBuffer& raw() const { return raw_; }
 
 private:

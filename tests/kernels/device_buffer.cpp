@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace sundog
@@ -63,6 +64,14 @@ TEST(DeviceBuffer, Fills)
         EXPECT_EQ(pair.low, 7u);
         EXPECT_EQ(pair.high, 9u);
     }
+    struct Block {
+        std::uint32_t words[32];
+    };
+    Buffer<Block> blocks(device, 5, "blocks");
+    Block block{};
+    for (std::uint32_t i = 0; i < 32; ++i) block.words[i] = i;
+    blocks.fill(block);
+    for (const Block& filled : blocks.download()) EXPECT_TRUE(std::equal(filled.words, filled.words + 32, block.words));
 }
 
 TEST(DeviceBuffer, MayBeEmpty)
