@@ -1,0 +1,33 @@
+// Scenes in Mitsuba's XML: the 3.x schema, and 0.6's names (camelCase, <lookAt>, <srgb>, ...) beside it.
+//
+// Supported: sensors perspective and thinlens; hdrfilm with box, tent, gaussian, mitchell and catmullrom filters and
+// crop; shapes obj, ply, rectangle, cube, sphere and disk; BSDFs diffuse, dielectric, thindielectric, conductor,
+// twosided and null; emitters area, point, spot, directional and constant; rgb, srgb, spectrum and blackbody colours;
+// default, $name, include, path, ref and alias. The integrator is kept as text for the method that it names.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sundog
+{
+
+struct LoadOptions {
+    std::map<std::string, std::string> defines; // -D NAME=VALUE: override the scene's <default>s
+};
+
+struct LoadedScene {
+    Scene scene;
+    std::vector<std::string> warnings; // one line each, "FILE:LINE: what was ignored, clamped or dropped"
+};
+
+// Throws SceneError, with file and line, for a file that cannot be read (meshes and includes too), is malformed, asks
+// for a plugin or parameter that would change the image and is not supported, or describes nothing that can be
+// rendered (no sensor, no shape, no light, values out of range). Throws UsageError for a define of an unknown name.
+LoadedScene load_scene(const std::filesystem::path& file, const LoadOptions& options);
+
+} // namespace sundog

@@ -1,0 +1,71 @@
+// Typed access to the parameters of one object of a scene file, which complains about what is wrong with one
+// and, at the end, about those that nobody asked for.
+#pragma once
+
+#include "import/colors.h"
+#include "import/scene_index.h"
+#include "math/transform.h"
+
+#include <optional>
+#include <set>
+
+namespace sundog
+{
+
+// An object inside another, in place or by <ref>.
+struct NestedObject {
+    const XmlElement* object;
+    SourceLocation where; // of the object or of its <ref>
+};
+
+class ObjectReader
+{
+public:
+    // Throws SceneError for two parameters of one name and for values with missing or unknown attributes.
+    ObjectReader(const XmlElement& element, const SceneIndex& index);
+
+    const XmlElement& element() const { return element_; }
+    const SourceLocation& where() const { return element_.where; }
+    std::string type() const;     // throws SceneError without one
+    std::string describe() const; // "bsdf 'diffuse'"
+
+    // Values by snake_case name. Each throws SceneError, at the parameter's line, for a wrong type or value.
+    bool has(std::string_view name) const { return find(name) != nullptr; }
+    SourceLocation where_of(std::string_view name) const; // the object's own without the parameter
+    double number(std::string_view name, double fallback);
+    double positive(std::string_view name, double fallback); // > 0
+    int integer(std::string_view name, int fallback);
+    bool boolean(std::string_view name, bool fallback);
+    std::string text(std::string_view name, const std::string& fallback); // throws without a value and fallback ""
+    std::optional<Vec3> vector(std::string_view name);                    // <point> or <vector>
+    Transform transform(std::string_view name);                           // identity without one
+    Vec3 color(std::string_view name, Vec3 fallback, ColorRole role);
+    // The index of refraction in a <float>, or named in a <string>.
+    float ior(std::string_view name, const char* fallback);
+
+    // Objects of one tag.
+    std::vector<NestedObject> nested(std::string_view tag);
+    // At most one; throws SceneError for more.
+    std::optional<NestedObject> single(std::string_view tag);
+
+    // A parameter without effect on the image: a warning with the reason, if it is there.
+    void ignore(std::string_view name, const std::string& reason);
+    // A parameter that changes the image in a way that is not supported: an error, if it is there.
+    void refuse(std::string_view name, const std::string& reason);
+    // Warns of parameters, and throws SceneError for objects, that were not asked for.
+    void finish();
+
+    [[noreturn]] void unsupported(const std::string& supported) const; // this plugin
+
+    const SceneIndex& index() const { return index_; }
+
+private:
+    const XmlElement* find(std::string_view name) const;
+    const XmlElement* take(std::string_view name, std::initializer_list<std::string_view> tags);
+
+    const XmlElement& element_;
+    const SceneIndex& index_;
+    std::set<const XmlElement*> used_;
+};
+
+} // namespace sundog

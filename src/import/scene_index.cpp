@@ -1,0 +1,79 @@
+#include "import/scene_index.h"
+
+#include <algorithm>
+#include <array>
+
+namespace sundog
+{
+
+bool is_object_tag(std::string_view tag)
+{
+    constexpr std::array<std::string_view, 14> tags = {"scene", "sensor",  "film",    "rfilter", "sampler", "integrator", "shape",
+                                                       "bsdf",  "emitter", "texture", "medium",  "phase",   "volume",     "subsurface"};
+    return std::find(tags.begin(), tags.end(), tag) != tags.end();
+}
+
+SceneIndex::SceneIndex(const XmlScene& scene, std::vector<std::string>& warnings) : scene_(scene), warnings_(warnings)
+{
+    collect(scene.root);
+}
+
+void SceneIndex::collect(const XmlElement& element)
+{
+    for (const auto& child : element.children) {
+        if (child.tag == "alias") {
+            const std::string* as = child.attribute("as");
+            if (!as || !child.attribute("id")) throw SceneError(child.where, "<alias> needs the attributes id and as");
+            add(*as, child);
+        } else if (const std::string* id = child.attribute("id"); id && is_object_tag(child.tag)) {
+            add(*id, child);
+        }
+        collect(child);
+    }
+}
+
+void SceneIndex::add(const std::string& id, const XmlElement& element)
+{
+    const auto [entry, added] = objects_.emplace(id, &element);
+    if (added) return;
+    std::string first = entry->second->where.prefix();
+    first.resize(first.size() - 2); // without ": "
+    throw SceneError(element.where, "the id '" + id + "' is taken already, at " + first);
+}
+
+const XmlElement& SceneIndex::resolve(const XmlElement& reference) const
+{
+    const std::string* id = reference.attribute("id");
+    if (!id) throw SceneError(reference.where, "<ref> needs the attribute id");
+    // Each alias is followed once; more steps than objects are a cycle.
+    for (std::size_t step = 0; step <= objects_.size(); step++) {
+        const auto found = objects_.find(*id);
+        if (found == objects_.end()) throw SceneError(reference.where, "reference to unknown id '" + *id + "'");
+        if (found->second->tag != "alias") return *found->second;
+        id = found->second->attribute("id");
+    }
+    throw SceneError(reference.where, "the aliases of '" + *id + "' refer to each other in a circle");
+}
+
+std::filesystem::path SceneIndex::find_file(const std::string& name, const SourceLocation& where) const
+{
+    const std::filesystem::path path(name);
+    std::vector<std::filesystem::path> candidates;
+    if (path.is_absolute()) {
+        candidates.push_back(path);
+    } else {
+        for (const auto& folder : scene_.resource_folders) candidates.push_back(folder / path);
+        candidates.push_back(std::filesystem::path(scene_.file).parent_path() / path);
+        candidates.push_back(std::filesystem::path(where.file).parent_path() / path);
+    }
+    std::string tried;
+    for (const auto& candidate : candidates) {
+        std::error_code failed;
+        if (std::filesystem::is_regular_file(candidate, failed)) return candidate;
+        const std::string entry = "'" + candidate.string() + "'";
+        if (tried.find(entry) == std::string::npos) tried += (tried.empty() ? "" : ", ") + entry;
+    }
+    throw SceneError(where, "file '" + name + "' not found; tried " + tried);
+}
+
+} // namespace sundog

@@ -1,0 +1,137 @@
+#include "import/sensor_import.h"
+
+#include "import/text_file.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace sundog
+{
+
+namespace
+{
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+double parse_focal_length(ObjectReader& reader)
+{
+    std::string text = reader.text("focal_length", "50mm");
+    std::string_view number(text);
+    if (number.ends_with("mm")) number.remove_suffix(2);
+    const auto millimetres = parse_number(number);
+    if (!millimetres || !(*millimetres > 0.0))
+        throw SceneError(reader.where_of("focal_length"), "focal_length must be of the form 50mm, got '" + text + "'");
+    return *millimetres;
+}
+
+// The axis to which the field of view applies: x, y or diagonal.
+std::string read_fov_axis(ObjectReader& reader, double aspect)
+{
+    const std::string axis = reader.text("fov_axis", "x");
+    if (axis == "smaller") return aspect > 1.0 ? "y" : "x";
+    if (axis == "larger") return aspect > 1.0 ? "x" : "y";
+    if (axis == "x" || axis == "y" || axis == "diagonal") return axis;
+    throw SceneError(reader.where_of("fov_axis"), "fov_axis must be x, y, diagonal, smaller or larger, got '" + axis + "'");
+}
+
+// Tangent of half the horizontal field of view.
+double read_tan_half_x(ObjectReader& reader, double aspect)
+{
+    const double diagonal_to_x = 1.0 / std::sqrt(1.0 + 1.0 / (aspect * aspect));
+    if (!reader.has("fov")) {
+        // The film of a 35 mm camera is 36 x 24 mm; the focal length refers to its diagonal.
+        const double diagonal = std::hypot(36.0, 24.0) / (2.0 * parse_focal_length(reader));
+        reader.ignore("fov_axis", "it needs fov");
+        return diagonal * diagonal_to_x;
+    }
+    if (reader.has("focal_length")) throw SceneError(reader.where_of("focal_length"), "give a sensor either fov or focal_length, not both");
+    const double fov = reader.number("fov", 0.0);
+    if (!(fov > 0.0 && fov < 180.0))
+        throw SceneError(reader.where_of("fov"), "fov must be in (0, 180) degrees, got " + std::to_string(fov));
+    const double tangent = std::tan(0.5 * degree * fov);
+    const std::string axis = read_fov_axis(reader, aspect);
+    if (axis == "y") return tangent * aspect;
+    if (axis == "diagonal") return tangent * diagonal_to_x;
+    return tangent;
+}
+
+void read_pose(ObjectReader& reader, const SceneIndex& index, Sensor& sensor)
+{
+    const Transform to_world = reader.transform("to_world");
+    const auto scale = to_world.uniform_scale();
+    const SourceLocation where = reader.where_of("to_world");
+    if (!scale) throw SceneError(where, "to_world of a sensor must not shear or scale unevenly: use translate, rotate and lookat");
+    if (std::abs(*scale - 1.0) > 1e-3) index.warn(where, "the scale in to_world of a sensor is ignored");
+    sensor.position = to_world.point({0, 0, 0});
+    if (!is_finite(sensor.position)) throw SceneError(where, "the position of the sensor is too large for 32-bit numbers");
+    sensor.axis_z = normalize(to_world.vector({0, 0, 1}));
+    const Vec3 y = to_world.vector({0, 1, 0});
+    sensor.axis_y = normalize(y - sensor.axis_z * dot(y, sensor.axis_z));
+    // Exactly perpendicular; a reflection in to_world mirrors the image.
+    const Vec3 x = cross(sensor.axis_y, sensor.axis_z);
+    sensor.axis_x = to_world.determinant() < 0.0 ? -x : x;
+}
+
+void read_lens(ObjectReader& reader, const SceneIndex& index, Sensor& sensor)
+{
+    if (!reader.has("aperture_radius")) throw SceneError(reader.where(), "thinlens needs a <float name=\"aperture_radius\">");
+    const double radius = reader.number("aperture_radius", 0.0);
+    if (radius < 0.0) throw SceneError(reader.where_of("aperture_radius"), "aperture_radius must be >= 0");
+    if (radius == 0.0) index.warn(reader.where_of("aperture_radius"), "aperture_radius is 0: a pinhole, all in focus");
+    sensor.aperture_radius = static_cast<float>(radius);
+}
+
+void read_sampler(ObjectReader& sensor, const SceneIndex& index, IntegratorRequest& request)
+{
+    const auto sampler = sensor.single("sampler");
+    if (!sampler) return;
+    ObjectReader reader(*sampler->object, index);
+    const std::string type = reader.type();
+    if (type != "independent") index.warn(reader.where(), "sampler '" + type + "' is ignored: the method chooses its random numbers");
+    request.sample_count = reader.integer("sample_count", 4);
+    if (request.sample_count < 1) throw SceneError(reader.where_of("sample_count"), "sample_count must be >= 1");
+    const int seed = reader.integer("seed", 0);
+    if (seed < 0) throw SceneError(reader.where_of("seed"), "seed must be >= 0");
+    request.seed = static_cast<std::uint64_t>(seed);
+    for (const char* name : {"jitter", "dimension", "scramble"}) reader.ignore(name, "the method chooses its random numbers");
+    reader.finish();
+}
+
+void refuse_unsupported(ObjectReader& reader)
+{
+    for (const char* name : {"principal_point_offset_x", "principal_point_offset_y"})
+        if (reader.number(name, 0.0) != 0.0) reader.refuse(name, "use a crop of a larger film");
+    for (const char* name : {"shutter_open", "shutter_close"}) reader.ignore(name, "nothing in the scene moves");
+    reader.refuse("srf", "remove it");
+}
+
+} // namespace
+
+void import_sensor(const XmlElement& element, const SceneIndex& index, Scene& scene)
+{
+    ObjectReader reader(element, index);
+    const std::string type = reader.type();
+    if (type != "perspective" && type != "thinlens") reader.unsupported("perspective, thinlens");
+
+    if (const auto film = reader.single("film")) {
+        ObjectReader film_reader(*film->object, index);
+        scene.film = import_film(film_reader);
+    } else {
+        scene.film.where = element.where;
+    }
+    Sensor& sensor = scene.sensor;
+    sensor.where = element.where;
+    read_pose(reader, index, sensor);
+    const double tan_half_x = read_tan_half_x(reader, static_cast<double>(scene.film.width) / scene.film.height);
+    sensor.fov_x = static_cast<float>(2.0 * std::atan(tan_half_x));
+    sensor.near_clip = static_cast<float>(reader.positive("near_clip", 1e-2));
+    sensor.far_clip = static_cast<float>(reader.positive("far_clip", 1e4));
+    if (!(sensor.near_clip < sensor.far_clip)) throw SceneError(reader.where_of("near_clip"), "near_clip must be smaller than far_clip");
+    sensor.focus_distance = static_cast<float>(reader.positive("focus_distance", sensor.far_clip));
+    if (type == "thinlens") read_lens(reader, index, sensor);
+    read_sampler(reader, index, scene.integrator);
+    refuse_unsupported(reader);
+    reader.finish();
+}
+
+} // namespace sundog

@@ -1,0 +1,147 @@
+#include "import/shape_import.h"
+
+#include "import/emitter_import.h"
+#include "import/mesh_import.h"
+
+#include <map>
+
+namespace sundog
+{
+
+namespace
+{
+
+Sphere import_sphere(ObjectReader& reader)
+{
+    const Vec3 center = reader.vector("center").value_or(Vec3{0, 0, 0});
+    const double radius = reader.positive("radius", 1.0);
+    const Transform to_world = reader.transform("to_world");
+    const auto scale = to_world.uniform_scale();
+    if (!scale)
+        throw SceneError(reader.where_of("to_world"), "to_world of a sphere must scale evenly and not shear: use a mesh for an ellipsoid");
+    Sphere sphere;
+    sphere.center = to_world.point(center);
+    sphere.radius = static_cast<float>(radius * *scale);
+    sphere.flip_normals = reader.boolean("flip_normals", false);
+    if (!is_finite(sphere.center) || !std::isfinite(sphere.radius))
+        throw SceneError(reader.where_of("to_world"), "the sphere is too large for 32-bit numbers");
+    if (!(sphere.radius > 0.0f)) throw SceneError(reader.where(), "the sphere is too small for 32-bit numbers");
+    return sphere;
+}
+
+Disk import_disk(ObjectReader& reader)
+{
+    const Transform to_world = reader.transform("to_world");
+    Disk disk{to_world.point({0, 0, 0}), to_world.vector({1, 0, 0}), to_world.vector({0, 1, 0})};
+    // The normal is that of +z, outside of which a reflection must not change.
+    if ((to_world.determinant() < 0.0) != reader.boolean("flip_normals", false)) std::swap(disk.axis_u, disk.axis_v);
+    if (!is_finite(disk.center) || !is_finite(disk.axis_u) || !is_finite(disk.axis_v))
+        throw SceneError(reader.where_of("to_world"), "the disk is too large for 32-bit numbers");
+    return disk;
+}
+
+// The triangles of one material, with the vertices that they use.
+TriangleMesh extract(const ObjFile& obj, int material)
+{
+    TriangleMesh part;
+    std::map<uint, uint> renumbered;
+    for (std::size_t i = 0; i < obj.mesh.triangles.size(); i++) {
+        if (obj.material_of_triangle[i] != material) continue;
+        std::array<uint, 3> triangle{};
+        for (std::size_t k = 0; k < 3; k++) {
+            const uint vertex = obj.mesh.triangles[i][k];
+            const auto [entry, added] = renumbered.emplace(vertex, static_cast<uint>(part.positions.size()));
+            triangle[k] = entry->second;
+            if (!added) continue;
+            part.positions.push_back(obj.mesh.positions[vertex]);
+            if (!obj.mesh.normals.empty()) part.normals.push_back(obj.mesh.normals[vertex]);
+        }
+        part.triangles.push_back(triangle);
+    }
+    return part;
+}
+
+class ShapeImport
+{
+public:
+    ShapeImport(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, Scene& scene)
+        : reader_(element, index), bsdfs_(bsdfs), scene_(scene)
+    {
+        const std::string* id = element.attribute("id");
+        common_.id = id ? *id : "";
+        common_.where = element.where;
+    }
+
+    void run()
+    {
+        const std::string type = reader_.type();
+        if (const auto emitter = reader_.single("emitter")) common_.emitter = import_area_emitter(*emitter->object, reader_.index());
+        const auto bsdf = reader_.single("bsdf");
+        if (type == "obj" && !bsdf) {
+            add_obj_with_materials();
+        } else {
+            auto geometry = read_geometry(type);
+            add(std::move(geometry), bsdf ? bsdfs_.import(*bsdf->object) : default_bsdf());
+        }
+        reader_.finish();
+    }
+
+private:
+    decltype(ShapeDescription::geometry) read_geometry(const std::string& type)
+    {
+        if (type == "obj") return import_obj(reader_, false).mesh;
+        if (type == "ply") return import_ply(reader_);
+        if (type == "rectangle") return import_rectangle(reader_);
+        if (type == "cube") return import_cube(reader_);
+        if (type == "sphere") return import_sphere(reader_);
+        if (type == "disk") return import_disk(reader_);
+        reader_.unsupported("obj, ply, rectangle, cube, sphere, disk");
+    }
+
+    void add_obj_with_materials()
+    {
+        ObjFile obj = import_obj(reader_, true);
+        if (obj.materials.empty()) {
+            add(std::move(obj.mesh), default_bsdf());
+            return;
+        }
+        for (int i = -1; i < static_cast<int>(obj.materials.size()); i++) {
+            TriangleMesh part = extract(obj, i);
+            if (!part.triangles.empty())
+                add(std::move(part), i < 0 ? default_bsdf() : obj_bsdf(obj.materials[static_cast<std::size_t>(i)]));
+        }
+    }
+
+    uint obj_bsdf(const ObjMaterial& material)
+    {
+        const Vec3 clamped = min(max(material.diffuse, Vec3{0, 0, 0}), Vec3{1, 1, 1});
+        if (!(clamped == material.diffuse))
+            reader_.index().warn(common_.where, "Kd of material '" + material.name + "' is outside of [0, 1] and was clamped");
+        return bsdfs_.add_diffuse(material.name, common_.where, clamped);
+    }
+
+    // As in Mitsuba: gray, but black for what emits.
+    uint default_bsdf() { return bsdfs_.add_diffuse("", common_.where, common_.emitter ? Vec3{0, 0, 0} : Vec3{0.5f, 0.5f, 0.5f}); }
+
+    void add(decltype(ShapeDescription::geometry) geometry, uint bsdf)
+    {
+        ShapeDescription shape = common_;
+        shape.geometry = std::move(geometry);
+        shape.bsdf = bsdf;
+        scene_.shapes.push_back(std::move(shape));
+    }
+
+    ObjectReader reader_;
+    BsdfImporter& bsdfs_;
+    Scene& scene_;
+    ShapeDescription common_;
+};
+
+} // namespace
+
+void import_shape(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, Scene& scene)
+{
+    ShapeImport(element, index, bsdfs, scene).run();
+}
+
+} // namespace sundog

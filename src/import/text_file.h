@@ -1,0 +1,25 @@
+// Whole files as text, and numbers in text: strict, finite and independent of the locale.
+#pragma once
+
+#include "base/errors.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sundog
+{
+
+// Throws SceneError at `wanted_at`, with the path, when the file is missing, a folder or unreadable.
+std::string read_text_file(const std::filesystem::path& file, const SourceLocation& wanted_at);
+
+// The whole text as one number, blanks around it allowed. Nothing for anything else, infinities and NaN included.
+std::optional<double> parse_number(std::string_view text);
+std::optional<long long> parse_integer(std::string_view text);
+
+// Splits at blanks and commas.
+std::vector<std::string_view> tokens(std::string_view text);
+
+} // namespace sundog
