@@ -1,6 +1,7 @@
 // One interface to the random numbers of a path: four at a time, by dimension.
 #ifndef SUNDOG_SAMPLER_H
 #define SUNDOG_SAMPLER_H
+#include "math/hash.h"
 #include "shared/sampler.h"
 #if SAMPLER == SAMPLER_SOBOL
 #include "math/sobol.h"
@@ -25,8 +26,7 @@ inline Sampler make_sampler(SamplerKey key, uint stream, uint sequence, ulong in
     sampler.block = (stream << 28) | (depth * BLOCKS_PER_VERTEX);
 #if SAMPLER == SAMPLER_SOBOL
     // The sequence repeats after 2^32 points: the upper half of the index starts a new scrambling.
-    sampler.seed.x = hash_combine(hash_combine(hash_uint(key.seed_low), key.seed_high), (uint)(index >> 32));
-    sampler.seed.x = hash_combine(sampler.seed.x, sequence);
+    sampler.seed.x = hash_uint(hash_uint(key.seed_low + 0x85ebca6bu * key.seed_high) + 0xc2b2ae35u * (uint)(index >> 32) + sequence);
     sampler.seed.y = 0u;
 #else
     sampler.seed = (uint2)(key.seed_low, key.seed_high);
@@ -56,7 +56,7 @@ inline float4 next_4d(Sampler* sampler)
     return sobol_owen_4d((uint)sampler->index, hash_combine(sampler->seed.x, block));
 #else
     const uint4 counter = (uint4)((uint)sampler->index, (uint)(sampler->index >> 32), sampler->sequence, block);
-    return convert_float4(philox4x32(counter, sampler->seed) >> 8) * 0x1p-24f;
+    return unit_float4(philox4x32(counter, sampler->seed));
 #endif
 }
 
