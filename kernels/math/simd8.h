@@ -28,10 +28,10 @@ static inline int mask8(int8 condition)
 #endif
 }
 
-// Index of the lowest set bit of a mask that is not 0.
+// Index of the lowest set bit of a mask that is not 0 (one instruction on a CPU).
 static inline int first_lane(int mask)
 {
-    return 31 - (int)clz((uint)(mask & -mask));
+    return (int)popcount((uint)(~mask & (mask - 1)));
 }
 
 static inline float lowest8(float8 a)

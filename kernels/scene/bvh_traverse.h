@@ -14,15 +14,17 @@
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH * (BVH_WIDTH - 1) + 1)
 #define BVH_EMPTY_LEAF (~0)
 
-// A ray prepared for box tests. For each axis: the row of the bound that the ray
-// meets first, the inverse direction, and the origins that the bounds it meets
-// first and last are measured from.
+// A ray prepared for box tests. For each axis: where in a node the bounds that
+// the ray meets first and last are (bytes), the inverse direction, and by how
+// much t is stretched at both ends.
 typedef struct RaySlabs {
-    int row_x, row_y, row_z;
+    ulong near_x, near_y, near_z;
+    ulong far_x, far_y, far_z;
     float inverse_x, inverse_y, inverse_z;
-    float entry_x, entry_y, entry_z;
-    float exit_x, exit_y, exit_z;
+    float margin_x, margin_y, margin_z;
 } RaySlabs;
+
+#define BVH_ROW_BYTES (4 * BVH_WIDTH)
 
 // What rounding can add up to, in units of 2^-24 of the distances involved: 5 for
 // the reciprocal and its product, 2 for the origin, 1 for direction components
@@ -30,11 +32,13 @@ typedef struct RaySlabs {
 // 10 for those (Woop et al. 2013, section 4.3). OpenCL lets a division be wrong by 2.5 ulp.
 #define SLAB_ERROR (24.0f / 16777216.0f)
 
-// Boxes grow by the bound on all rounding errors, by moving the two origins: no
-// box is missed whose triangle the triangle test would report. Directions get
-// no component below 2^-26 of the largest: neither infinities nor NaNs arise,
-// and what the ray bends by is within the same bound. False when there is
-// nothing to trace: a null or NaN direction, or an origin that is not finite.
+// Boxes grow by the bound on all rounding errors, `reach` being the largest
+// distance involved: no box is missed whose triangle the triangle test would
+// report. Everything is relative to the ray's origin, so a scene far from the
+// coordinates' origin loses nothing. Directions get no component below 2^-26 of
+// the largest: neither infinities nor NaNs arise, and what the ray bends by is
+// within the same bound. False when there is nothing to trace: a null or NaN
+// direction, or an origin that is not finite.
 static inline bool prepare_slabs(Ray ray, float reach, RaySlabs* slabs)
 {
     const float x = fabs(ray.direction.x), y = fabs(ray.direction.y), z = fabs(ray.direction.z);
@@ -44,81 +48,92 @@ static inline bool prepare_slabs(Ray ray, float reach, RaySlabs* slabs)
     slabs->inverse_x = 1.0f / copysign(fmax(x, smallest), ray.direction.x);
     slabs->inverse_y = 1.0f / copysign(fmax(y, smallest), ray.direction.y);
     slabs->inverse_z = 1.0f / copysign(fmax(z, smallest), ray.direction.z);
-    slabs->row_x = slabs->inverse_x < 0.0f ? 1 : 0;
-    slabs->row_y = slabs->inverse_y < 0.0f ? 3 : 2;
-    slabs->row_z = slabs->inverse_z < 0.0f ? 5 : 4;
+    slabs->near_x = (slabs->inverse_x < 0.0f ? 1 : 0) * BVH_ROW_BYTES;
+    slabs->far_x = (slabs->inverse_x < 0.0f ? 0 : 1) * BVH_ROW_BYTES;
+    slabs->near_y = (slabs->inverse_y < 0.0f ? 3 : 2) * BVH_ROW_BYTES;
+    slabs->far_y = (slabs->inverse_y < 0.0f ? 2 : 3) * BVH_ROW_BYTES;
+    slabs->near_z = (slabs->inverse_z < 0.0f ? 5 : 4) * BVH_ROW_BYTES;
+    slabs->far_z = (slabs->inverse_z < 0.0f ? 4 : 5) * BVH_ROW_BYTES;
     const float error = SLAB_ERROR * reach;
-    const float error_x = copysign(error, ray.direction.x);
-    const float error_y = copysign(error, ray.direction.y);
-    const float error_z = copysign(error, ray.direction.z);
-    slabs->entry_x = ray.origin.x + error_x, slabs->exit_x = ray.origin.x - error_x;
-    slabs->entry_y = ray.origin.y + error_y, slabs->exit_y = ray.origin.y - error_y;
-    slabs->entry_z = ray.origin.z + error_z, slabs->exit_z = ray.origin.z - error_z;
+    slabs->margin_x = error * fabs(slabs->inverse_x);
+    slabs->margin_y = error * fabs(slabs->inverse_y);
+    slabs->margin_z = error * fabs(slabs->inverse_z);
     return true;
 }
 
-// Mask of the node's children whose boxes the ray enters before t_limit, and where.
-static inline int intersect_children(__global const BvhNode* node, const RaySlabs* slabs, float t_limit, float8* t_entry)
+// Eight bounds of a node.
+static inline float8 node_row(__global const BvhNode* node, ulong offset)
 {
-    __global const float8* rows = (__global const float8*)node;
-    const float8 entry_x = (rows[slabs->row_x] - slabs->entry_x) * slabs->inverse_x;
-    const float8 entry_y = (rows[slabs->row_y] - slabs->entry_y) * slabs->inverse_y;
-    const float8 entry_z = (rows[slabs->row_z] - slabs->entry_z) * slabs->inverse_z;
-    const float8 exit_x = (rows[slabs->row_x ^ 1] - slabs->exit_x) * slabs->inverse_x;
-    const float8 exit_y = (rows[slabs->row_y ^ 1] - slabs->exit_y) * slabs->inverse_y;
-    const float8 exit_z = (rows[slabs->row_z ^ 1] - slabs->exit_z) * slabs->inverse_z;
+    return *(__global const float8*)((__global const char*)node + offset);
+}
+
+// Mask of the node's children whose boxes the ray enters before t_limit, and where.
+static inline int intersect_children(__global const BvhNode* node, Vec3 origin, const RaySlabs* slabs, float t_limit, float8* t_entry)
+{
+    const float8 entry_x = (node_row(node, slabs->near_x) - origin.x) * slabs->inverse_x - slabs->margin_x;
+    const float8 entry_y = (node_row(node, slabs->near_y) - origin.y) * slabs->inverse_y - slabs->margin_y;
+    const float8 entry_z = (node_row(node, slabs->near_z) - origin.z) * slabs->inverse_z - slabs->margin_z;
+    const float8 exit_x = (node_row(node, slabs->far_x) - origin.x) * slabs->inverse_x + slabs->margin_x;
+    const float8 exit_y = (node_row(node, slabs->far_y) - origin.y) * slabs->inverse_y + slabs->margin_y;
+    const float8 exit_z = (node_row(node, slabs->far_z) - origin.z) * slabs->inverse_z + slabs->margin_z;
     const float8 entry = max8(max8(entry_x, entry_y), max8(entry_z, (float8)(0.0f)));
     const float8 exit = min8(min8(exit_x, exit_y), min8(exit_z, (float8)(t_limit)));
     *t_entry = entry;
     return mask8(entry <= exit);
 }
 
-typedef struct BvhStack {
-    int depth;
-    int node[BVH_STACK_SIZE];
-    float t[BVH_STACK_SIZE];
-} BvhStack;
+// A subtree still to be visited, and where the ray enters it.
+typedef struct BvhVisit {
+    int node;
+    float t;
+} BvhVisit;
 
-// Puts the children of `mask` on the stack, the nearest last.
-static inline void push_children(BvhStack* stack, __global const BvhNode* node, int mask, const float* t_entry)
+// Puts the children of `mask` on the stack above `base` in order of distance, the
+// farthest lowest, and returns the nearest of them and `near`.
+static inline int push_in_order(BvhVisit* stack, int* depth, int base, __global const BvhNode* node, int mask, const float* t,
+                                BvhVisit near)
 {
-    const int first = stack->depth;
     while (mask != 0) {
         const int lane = first_lane(mask);
-        const float t = t_entry[lane];
         mask &= mask - 1;
-        int place = stack->depth++;
-        for (; place > first && stack->t[place - 1] < t; place--) {
-            stack->node[place] = stack->node[place - 1];
-            stack->t[place] = stack->t[place - 1];
+        BvhVisit visit = {node->child[lane], t[lane]};
+        if (visit.t < near.t) {
+            const BvhVisit other = near;
+            near = visit;
+            visit = other;
         }
-        stack->node[place] = node->child[lane];
-        stack->t[place] = t;
+        int place = (*depth)++;
+        for (; place > base && stack[place - 1].t < visit.t; place--) stack[place] = stack[place - 1];
+        stack[place] = visit;
     }
+    return near.node;
 }
 
-// The child to go on with, the others being left on the stack.
-static inline int enter_node(BvhStack* stack, __global const BvhNode* node, const RaySlabs* slabs, float t_limit)
+// The child to go on with: the nearest; the others are left on the stack, nearer
+// ones higher. An any-hit query takes them in any order: sorting does not pay.
+static inline int enter_node(BvhVisit* stack, int* depth, __global const BvhNode* node, Vec3 origin, const RaySlabs* slabs, float t_limit,
+                             bool any)
 {
     float8 t_entry;
-    int mask = intersect_children(node, slabs, t_limit, &t_entry);
+    int mask = intersect_children(node, origin, slabs, t_limit, &t_entry);
     if (mask == 0) return BVH_EMPTY_LEAF;
     const int first = first_lane(mask);
     mask &= mask - 1;
     if (mask == 0) return node->child[first];
+    if (any) {
+        for (; mask != 0; mask &= mask - 1) stack[(*depth)++].node = node->child[first_lane(mask)];
+        return node->child[first];
+    }
     float t[BVH_WIDTH];
     vstore8(t_entry, 0, t);
     const int second = first_lane(mask);
     mask &= mask - 1;
-    const int near = t[second] < t[first] ? second : first;
-    const int far = near == first ? second : first;
-    if (mask == 0) {
-        stack->node[stack->depth] = node->child[far];
-        stack->t[stack->depth++] = t[far];
-        return node->child[near];
-    }
-    push_children(stack, node, mask | 1 << first | 1 << second, t);
-    return stack->node[--stack->depth];
+    const bool swap = t[second] < t[first];
+    const BvhVisit near = {node->child[swap ? second : first], t[swap ? second : first]};
+    const BvhVisit far = {node->child[swap ? first : second], t[swap ? first : second]};
+    const int base = *depth;
+    stack[(*depth)++] = far;
+    return push_in_order(stack, depth, base, node, mask, t, near);
 }
 
 // Hits in the triangle blocks of a leaf. *block moves past them.
@@ -144,12 +159,12 @@ static inline bool traverse_bvh(GEOMETRY_PARAMETERS, Ray ray, bool any, Hit* hit
     // The largest float below t_max: t < t_max becomes t <= hit->t.
     hit->t = as_float(as_uint(ray.t_max) - 1u);
 
-    BvhStack stack;
-    stack.depth = 0;
+    BvhVisit stack[BVH_STACK_SIZE];
+    int depth = 0;
     int node = globals->bvh_root;
     bool found = false;
     for (;;) {
-        while (node >= 0) node = enter_node(&stack, bvh_nodes + node, &slabs, hit->t);
+        while (node >= 0) node = enter_node(stack, &depth, bvh_nodes + node, ray.origin, &slabs, hit->t, any);
         const uint leaf = (uint)~node;
         __global const BvhBlock* block = bvh_blocks + (leaf >> (2 * BVH_LEAF_BLOCK_BITS));
         found |= intersect_leaf_triangles(&block, leaf, &shear, any, hit);
@@ -158,10 +173,10 @@ static inline bool traverse_bvh(GEOMETRY_PARAMETERS, Ray ray, bool any, Hit* hit
 #endif
         if (any && found) return true;
         do {
-            if (stack.depth == 0) return found;
-            stack.depth--;
-        } while (stack.t[stack.depth] > hit->t);
-        node = stack.node[stack.depth];
+            if (depth == 0) return found;
+            depth--;
+        } while (!any && stack[depth].t > hit->t);
+        node = stack[depth].node;
     }
 }
 

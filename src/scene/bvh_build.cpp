@@ -81,14 +81,12 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
 void split_primitive(const RTCBuildPrimitive* primitive, unsigned dimension, float position, RTCBounds* left, RTCBounds* right,
                      void* context)
 {
+    const Bounds box{{primitive->lower_x, primitive->lower_y, primitive->lower_z},
+                     {primitive->upper_x, primitive->upper_y, primitive->upper_z}};
     const BvhGeometry& geometry = *static_cast<const BvhGeometry*>(context);
-    Bounds below{{primitive->lower_x, primitive->lower_y, primitive->lower_z},
-                 {primitive->upper_x, primitive->upper_y, primitive->upper_z}};
-    Bounds above = below;
-    (&below.upper.x)[dimension] = position;
-    (&above.lower.x)[dimension] = position;
-    store(clipped_bounds(geometry, id_of(*primitive), below), left);
-    store(clipped_bounds(geometry, id_of(*primitive), above), right);
+    const SplitBounds parts = split_bounds(geometry, id_of(*primitive), box, static_cast<int>(dimension), position);
+    store(parts.below, left);
+    store(parts.above, right);
 }
 
 // --- The build ---------------------------------------------------------------------------
@@ -115,7 +113,7 @@ RTCBuildArguments build_arguments(const BvhSettings& settings, std::vector<RTCBu
     arguments.maxBranchingFactor = BVH_WIDTH;
     arguments.maxDepth = BVH_MAX_DEPTH;
     arguments.sahBlockSize = BVH_WIDTH;
-    arguments.minLeafSize = 1;
+    arguments.minLeafSize = settings.min_leaf_size;
     arguments.maxLeafSize = settings.max_leaf_size;
     arguments.traversalCost = settings.traversal_cost;
     arguments.intersectionCost = settings.intersection_cost;

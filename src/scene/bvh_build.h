@@ -27,7 +27,8 @@ struct Bvh {
 };
 
 struct BvhSettings {
-    unsigned max_leaf_size = 8;     // primitives, 1 to 32
+    unsigned min_leaf_size = 1;     // primitives; so few are never split
+    unsigned max_leaf_size = 16;    // primitives, up to 32
     float traversal_cost = 1.0f;    // of a node, relative to
     float intersection_cost = 1.0f; // a block of eight primitives
     float extra_references = 1.0f;  // room for spatial splits, as a fraction of the primitive count; 0: no splits

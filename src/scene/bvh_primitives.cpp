@@ -41,45 +41,27 @@ Bounds round_outwards(const Point& lower, const Point& upper)
             {round_up(upper[0]), round_up(upper[1]), round_up(upper[2])}};
 }
 
-// A convex polygon: a triangle cut by up to six planes has nine corners at most.
-struct Polygon {
-    std::array<Point, 9> corners;
-    int count = 0;
+// Box of points that are given in double precision.
+struct PointBounds {
+    Point lower{INFINITY, INFINITY, INFINITY};
+    Point upper{-INFINITY, -INFINITY, -INFINITY};
 
-    void add(const Point& p) { corners[count++] = p; }
+    void extend(const Point& p)
+    {
+        for (int k = 0; k < 3; k++) {
+            lower[k] = std::min(lower[k], p[k]);
+            upper[k] = std::max(upper[k], p[k]);
+        }
+    }
 };
 
-// Sutherland-Hodgman: keeps sign * x[axis] <= sign * position.
-Polygon clip(const Polygon& polygon, int axis, double position, double sign)
+// The part of `bounds` inside `box`; all of the box where rounding leaves nothing.
+Bounds within(const PointBounds& bounds, const Bounds& box)
 {
-    Polygon kept;
-    for (int i = 0; i < polygon.count; i++) {
-        const Point& from = polygon.corners[i];
-        const Point& to = polygon.corners[i + 1 < polygon.count ? i + 1 : 0];
-        const double before = sign * (from[axis] - position);
-        const double after = sign * (to[axis] - position);
-        if (before <= 0.0) kept.add(from);
-        if ((before < 0.0 && after > 0.0) || (before > 0.0 && after < 0.0)) {
-            const double s = before / (before - after);
-            Point crossing;
-            for (int k = 0; k < 3; k++) crossing[k] = from[k] + s * (to[k] - from[k]);
-            crossing[axis] = position;
-            kept.add(crossing);
-        }
-    }
-    return kept;
-}
-
-Bounds bounds_of(const Polygon& polygon)
-{
-    Point lower = polygon.corners[0], upper = polygon.corners[0];
-    for (int i = 1; i < polygon.count; i++) {
-        for (int k = 0; k < 3; k++) {
-            lower[k] = std::min(lower[k], polygon.corners[i][k]);
-            upper[k] = std::max(upper[k], polygon.corners[i][k]);
-        }
-    }
-    return round_outwards(lower, upper);
+    const Bounds rounded = round_outwards(bounds.lower, bounds.upper);
+    const Bounds common{max(rounded.lower, box.lower), min(rounded.upper, box.upper)};
+    const bool valid = common.lower.x <= common.upper.x && common.lower.y <= common.upper.y && common.lower.z <= common.upper.z;
+    return valid ? common : box;
 }
 
 // A normal that single precision can hold.
@@ -154,19 +136,29 @@ std::vector<BvhPrimitive> collect_primitives(const BvhGeometry& geometry)
     return primitives;
 }
 
-Bounds clipped_bounds(const BvhGeometry& geometry, uint id, const Bounds& box)
+SplitBounds split_bounds(const BvhGeometry& geometry, uint id, const Bounds& box, int axis, float position)
 {
-    if (id & ANALYTIC_BIT) return box;
+    SplitBounds boxes{box, box};
+    (&boxes.below.upper.x)[axis] = position;
+    (&boxes.above.lower.x)[axis] = position;
+    if (id & ANALYTIC_BIT) return boxes;
+    PointBounds below, above;
     const Triangle& triangle = geometry.triangles[id];
-    Polygon polygon;
-    for (uint vertex : triangle.vertex) polygon.add(to_point(geometry.positions[vertex]));
-    for (int axis = 0; axis < 3; axis++) {
-        polygon = clip(polygon, axis, component(box.lower, axis), -1.0);
-        polygon = clip(polygon, axis, component(box.upper, axis), 1.0);
+    for (int k = 0; k < 3; k++) {
+        const Point from = to_point(geometry.positions[triangle.vertex[k]]);
+        const Point to = to_point(geometry.positions[triangle.vertex[(k + 1) % 3]]);
+        const double before = from[axis] - position, after = to[axis] - position;
+        if (before <= 0.0) below.extend(from);
+        if (before >= 0.0) above.extend(from);
+        if (before * after < 0.0) { // the edge crosses the plane
+            Point crossing;
+            for (int j = 0; j < 3; j++) crossing[j] = from[j] + before / (before - after) * (to[j] - from[j]);
+            crossing[axis] = position;
+            below.extend(crossing);
+            above.extend(crossing);
+        }
     }
-    if (polygon.count == 0) return box; // only touches the box, within rounding
-    const Bounds exact = bounds_of(polygon);
-    return {max(exact.lower, box.lower), min(exact.upper, box.upper)};
+    return {within(below, boxes.below), within(above, boxes.above)};
 }
 
 } // namespace sundog

@@ -19,8 +19,12 @@ struct BvhPrimitive {
 // All primitives that a ray can hit, in ascending order of id. Throws as build_bvh.
 std::vector<BvhPrimitive> collect_primitives(const BvhGeometry& geometry);
 
-// Bounds of the part of primitive `id` that lies inside `box`: for a triangle of the clipped polygon, for
-// an analytic primitive the box itself. Never smaller than the exact part, never larger than the box.
-Bounds clipped_bounds(const BvhGeometry& geometry, uint id, const Bounds& box);
+// Bounds of the parts of primitive `id` on both sides of the plane x[axis] = position, within `box` (which
+// the plane cuts): for a triangle of the two polygons, for an analytic primitive the halves of the box.
+// Never smaller than the exact parts.
+struct SplitBounds {
+    Bounds below, above;
+};
+SplitBounds split_bounds(const BvhGeometry& geometry, uint id, const Bounds& box, int axis, float position);
 
 } // namespace sundog
