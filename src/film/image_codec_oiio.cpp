@@ -13,7 +13,7 @@ namespace sundog {
 
 namespace {
 
-constexpr std::string_view attribute_prefix = "sundog:";
+constexpr std::string_view own_attributes = "sundog:"; // others are the format's or other programs'
 
 std::string one_line(std::string text)
 {
@@ -32,7 +32,7 @@ template <class T> std::vector<T> pick_rgb(const Image& image, RgbChannels rgb, 
     return out;
 }
 
-std::string encode_with(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels, const std::filesystem::path& file)
+std::string encode_with(const char* format, const OIIO::ImageSpec& spec, const OIIO::TypeDesc& type, const void* pixels, const std::filesystem::path& file)
 {
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
@@ -51,7 +51,7 @@ std::string encode_exr(const Image& image, const std::filesystem::path& file)
     spec.channelnames = image.channels;
     spec.attribute("compression", "zip");
     spec.attribute("DateTime", ""); // else OpenImageIO adds the time, and no two files are the same
-    for (const auto& [name, value] : image.metadata) spec.attribute(std::string(attribute_prefix) + name, value);
+    for (const auto& [name, value] : image.metadata) spec.attribute(name, value);
     return encode_with("openexr", spec, OIIO::TypeDesc::FLOAT, image.pixels.data(), file);
 }
 
@@ -73,7 +73,7 @@ void take_metadata(Image& image, const OIIO::ImageSpec& spec)
 {
     for (const auto& attribute : spec.extra_attribs) {
         const std::string name = attribute.name().string();
-        if (name.starts_with(attribute_prefix)) image.metadata.emplace_back(name.substr(attribute_prefix.size()), attribute.get_string());
+        if (name.starts_with(own_attributes)) image.metadata.emplace_back(name, attribute.get_string());
     }
 }
 

@@ -1,5 +1,5 @@
 // Image files. Written whole or not at all; the ending of the name chooses the format:
-//   .exr  all channels as 32-bit floats, metadata as string attributes "sundog:NAME"
+//   .exr  all channels as 32-bit floats, metadata as string attributes
 //   .png  R, G, B as 8-bit sRGB, after the exposure
 //   .hdr  R, G, B as Radiance RGBE
 //   .pfm  R, G, B as 32-bit floats
@@ -18,7 +18,7 @@ namespace sundog {
 void write_image(const std::filesystem::path& path, const Image& image, float exposure_stops = 0.0f);
 
 // Reads any format that OpenImageIO knows (PFM in a minimal build), as linear values: 8-bit files, and
-// others marked as sRGB, are decoded. Attributes "sundog:NAME" come back as metadata. Throws FileError.
+// others marked as sRGB, are decoded. Attributes named "sundog:..." come back as metadata. Throws FileError.
 Image read_image(const std::filesystem::path& path);
 
 // Throws FileError when write_image(path, ...) could not succeed: unknown ending, missing or unwritable

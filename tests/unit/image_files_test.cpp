@@ -195,7 +195,7 @@ TEST_F(ImageFiles, exr_keeps_every_channel_and_the_metadata)
 {
     Image image = random_image(17, 5, {"R", "G", "B", "variance.R", "variance.G", "variance.B", "N.X", "N.Y", "N.Z", "depth.Z"});
     image.at(3, 2, 6) = -0.5f;
-    image.metadata = {{"method", "sppm"}, {"seed", "18446744073709551615"}, {"radius", "0.25"}};
+    image.metadata = {{"sundog:method", "sppm"}, {"sundog:seed", "18446744073709551615"}, {"sundog:radius", "0.25"}};
     write_image(folder / "a.exr", image);
     const Image back = read_image(folder / "a.exr");
     ASSERT_EQ(back.channel_count(), image.channel_count());

@@ -1,0 +1,70 @@
+// Exit status 2: a wrong command, option, method, parameter or value.
+#include "cli/small_scene.h"
+#include "cli/sundog_process.h"
+
+namespace sundog::cli {
+namespace {
+
+struct UsageCase {
+    const char* name;
+    std::vector<std::string> arguments;
+    std::vector<std::string> message;
+};
+
+void PrintTo(const UsageCase& test, std::ostream* out) { *out << test.name; }
+
+class UsageErrors : public InFolder, public ::testing::WithParamInterface<UsageCase> {};
+
+TEST_P(UsageErrors, status_2_and_one_line)
+{
+    write("scene.xml", SmallScene{}.xml());
+    expect_failure(run(GetParam().arguments), 2, GetParam().message);
+    EXPECT_THAT(files(), ::testing::ElementsAre("scene.xml"));
+}
+
+const UsageCase cases[] = {
+    {"no_command", {}, {"no command given", "render, devices"}},
+    {"unknown_command", {"rendr"}, {"unknown command \"rendr\"", "render"}},
+    {"unknown_option", {"render", "scene.xml", "--fast"}, {"--fast", "see sundog render --help"}},
+    {"unknown_global_option", {"--fast"}, {"see sundog --help"}},
+    {"options_of_later_issues", {"render", "scene.xml", "--resume"}, {"--resume"}},
+    {"no_scene", {"render"}, {"SCENE is required"}},
+    {"two_scenes", {"render", "scene.xml", "other.xml"}, {"other.xml"}},
+    {"option_without_value", {"render", "scene.xml", "-o"}, {"--output"}},
+    {"iterations_zero", {"render", "scene.xml", "-n", "0"}, {"--iterations must be at least 1"}},
+    {"iterations_negative", {"render", "scene.xml", "--iterations=-5"}, {"--iterations", "-5"}},
+    {"iterations_no_number", {"render", "scene.xml", "-n", "many"}, {"--iterations", "many"}},
+    {"iterations_fraction", {"render", "scene.xml", "-n", "1.5"}, {"--iterations", "1.5"}},
+    {"time_zero", {"render", "scene.xml", "-t", "0"}, {"--time must be more than 0"}},
+    {"time_nan", {"render", "scene.xml", "-t", "nan"}, {"--time needs a number, got \"nan\""}},
+    {"seed_negative", {"render", "scene.xml", "--seed=-1"}, {"--seed", "-1"}},
+    {"seed_no_number", {"render", "scene.xml", "-s", "x"}, {"--seed", "x"}},
+    {"size_zero", {"render", "scene.xml", "--size", "0x10"}, {"--size needs WIDTHxHEIGHT", "0x10"}},
+    {"size_one_number", {"render", "scene.xml", "--size", "512"}, {"--size needs WIDTHxHEIGHT", "512"}},
+    {"size_letters", {"render", "scene.xml", "--size", "axb"}, {"axb"}},
+    {"size_negative", {"render", "scene.xml", "--size", "10x-5"}, {"10x-5"}},
+    {"size_huge", {"render", "scene.xml", "--size", "99999999999x1"}, {"99999999999x1"}},
+    {"exposure", {"render", "scene.xml", "--exposure", "bright"}, {"--exposure needs a number, got \"bright\""}},
+    {"progress", {"render", "scene.xml", "--progress", "loud"}, {"--progress must be auto, bar, plain, json or off, got \"loud\""}},
+    {"define", {"render", "scene.xml", "-D", "height"}, {"-D needs NAME=VALUE, got \"height\""}},
+    {"define_without_name", {"render", "scene.xml", "-D", "=3"}, {"-D needs NAME=VALUE"}},
+    {"parameter_form", {"render", "scene.xml", "-p", "max_depth"}, {"--param needs NAME=VALUE, got \"max_depth\""}},
+    {"method", {"render", "scene.xml", "-m", "magic"}, {"unknown method \"magic\"", "sundog methods"}},
+    {"parameter_name", {"render", "scene.xml", "-p", "magic=1"}, {"path has no parameter \"magic\"", "max_depth"}},
+    {"parameter_type", {"render", "scene.xml", "-p", "max_depth=deep"}, {"parameter max_depth of path must be an integer", "got \"deep\""}},
+    {"parameter_range", {"render", "scene.xml", "-p", "max_depth=-7"}, {"parameter max_depth of path must be", "got \"-7\""}},
+    {"parameter_choice", {"render", "scene.xml", "-m", "pppm", "-p", "kernel=round"}, {"parameter kernel of pppm must be one of", "got \"round\""}},
+    {"alpha_range", {"render", "scene.xml", "-m", "sppm", "-p", "alpha=2"}, {"parameter alpha of sppm must be a number from", "got \"2\""}},
+    {"methods_name", {"methods", "magic"}, {"unknown method \"magic\""}},
+    {"info_no_scene", {"info"}, {"SCENE is required"}},
+    {"compare_one_image", {"compare", "a.exr"}, {"REFERENCE is required"}},
+    {"compare_metric", {"compare", "a.exr", "b.exr", "--max", "psnr=3"}, {"--max knows no metric \"psnr\""}},
+    {"compare_limit", {"compare", "a.exr", "b.exr", "--max", "mse=low"}, {"--max mse needs a number, got \"low\""}},
+    {"compare_limit_form", {"compare", "a.exr", "b.exr", "--max", "mse"}, {"--max needs NAME=VALUE"}},
+    {"bench_section", {"bench", "--section", "speed"}, {"unknown bench section \"speed\"", "traversal"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Cli, UsageErrors, ::testing::ValuesIn(cases), [](const auto& test) { return std::string(test.param.name); });
+
+} // namespace
+} // namespace sundog::cli
