@@ -8,9 +8,9 @@ namespace sundog
 namespace
 {
 
-// Finished events are looked for when so many are waiting, and waited for when there are too many.
-constexpr std::size_t fold_at = 512;
-constexpr std::size_t wait_at = 4096;
+// Finished events are looked for when so many are waiting, and waited for when the host is too far ahead.
+constexpr std::size_t fold_at = 64;
+constexpr std::size_t wait_at = 512;
 
 } // namespace
 

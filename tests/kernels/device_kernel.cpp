@@ -196,7 +196,7 @@ TEST_F(DeviceKernel, ProfilesEveryLaunchByLabel)
         Kernel::from_source(device_, "two", "Second phrase", "__kernel void two(__global int* o) { o[get_global_id(0)] = 2; }");
     Buffer<int> output(device_, 256, "output");
     two(256, output);
-    for (int i = 0; i < 10'000; ++i) one(256, output); // more than are kept as events
+    for (int i = 0; i < 10'000; ++i) one(256, output); // far more than are kept as events
     two(256, output);
     const auto stages = device_.profile().stages();
     ASSERT_EQ(stages.size(), 2u);
