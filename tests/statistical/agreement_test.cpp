@@ -1,0 +1,139 @@
+// Independent estimators agree: what different methods make of one scene differs by noise alone.
+
+#include "support/cornell_scene.h"
+#include "support/render_replicates.h"
+
+#include <gtest/gtest.h>
+
+using namespace sundog;
+using namespace sundog::test;
+
+namespace {
+
+constexpr int size = 32;
+constexpr int blocks = 2; // an image is compared in blocks x blocks windows
+constexpr int replicates = 12;
+
+// Means of each window, one Estimate each, and of the whole image.
+std::vector<Estimate> window_estimates(const Scene& scene, const RenderRequest& request)
+{
+    std::vector<std::vector<double>> values(blocks * blocks + 1);
+    for (int seed = 1; seed <= replicates; seed++) {
+        const Image image = render(scene, request, static_cast<std::uint64_t>(seed));
+        constexpr int step = size / blocks;
+        for (int by = 0; by < blocks; by++)
+            for (int bx = 0; bx < blocks; bx++)
+                values[static_cast<std::size_t>(by * blocks + bx)].push_back(window_mean(image, bx * step, by * step, (bx + 1) * step, (by + 1) * step));
+        values.back().push_back(image_mean(image));
+    }
+    std::vector<Estimate> estimates;
+    for (const auto& v : values) estimates.push_back(estimate_from(v));
+    return estimates;
+}
+
+bool uses_photons(const RenderRequest& request)
+{
+    return request.method == "pppm" || request.method == "sppm";
+}
+
+// bias: relative error that density estimation is known to make, allowed on top of noise.
+void expect_agreement(const Scene& scene, const std::vector<RenderRequest>& requests, double bias)
+{
+    std::vector<std::vector<Estimate>> estimates;
+    for (const auto& request : requests) estimates.push_back(window_estimates(scene, request));
+    const double comparisons = static_cast<double>(requests.size() * (requests.size() - 1) / 2 * estimates[0].size());
+    // Bonferroni at a family-wise 1%, two-sided, with the degrees of freedom of two equal samples.
+    const double quantile = student_quantile(replicates - 1, 0.005 / comparisons);
+    for (std::size_t a = 0; a < requests.size(); a++) {
+        for (std::size_t b = a + 1; b < requests.size(); b++) {
+            for (std::size_t w = 0; w < estimates[a].size(); w++) {
+                const Estimate &x = estimates[a][w], &y = estimates[b][w];
+                const double error = std::hypot(x.standard_error, y.standard_error);
+                const bool biased = uses_photons(requests[a]) || uses_photons(requests[b]);
+                EXPECT_NEAR(x.mean, y.mean, quantile * error + (biased ? bias * x.mean : 0.0)) << requests[a].method << " and " << requests[b].method << ", window " << w;
+                // The test has power. (Windows with the edge of a light in them, 50 times as bright, are the noisy ones.)
+                EXPECT_LT(error, 0.05 * x.mean) << requests[a].method << " and " << requests[b].method << ", window " << w;
+            }
+        }
+    }
+}
+
+RenderRequest request(const std::string& method, std::uint64_t iterations, const std::string& extra = "", const std::string& value = "")
+{
+    RenderRequest r{method, iterations, {{"sampler", "independent"}, {"max_depth", "6"}}};
+    if (method != "path") r.parameters["photons"] = "16384";
+    if (method == "pppm" || method == "sppm") r.parameters["radius"] = "0.01";
+    if (!extra.empty()) r.parameters[extra] = value;
+    return r;
+}
+
+// A disk of radius r at a wall's edge loses 2 / (3 pi) of its photons on average over a strip of width r; in a box
+// of side 2 the strips of all edges cover 2 r of each wall's area, so a radius of 0.01 darkens light from photons by
+// 2 * 0.01 * 0.21 = 0.4% (the kernel's own blur, of order r^2, is below 0.1%).
+constexpr double edge_bias = 0.005;
+
+TEST(Agreement, DiffuseBox)
+{
+    expect_agreement(cornell_box(size),
+                     {request("path", 64), request("ptracer", 16), request("pppm", 16), request("sppm", 16), request("pppm", 16, "direct", "photons")}, edge_bias);
+}
+
+TEST(Agreement, GlassAndMirrorSpheres)
+{
+    // Light tracing cannot see what is behind glass, so the three others are compared.
+    Scene scene = cornell_box(size);
+    const uint glass = add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}});
+    const uint mirror = add_bsdf(scene, ConductorBsdf{});
+    scene.shapes.push_back(make_sphere({.45f, -.6f, .3f}, .4f, glass));
+    scene.shapes.push_back(make_sphere({-.45f, -.6f, -.3f}, .4f, mirror));
+    expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24)}, edge_bias);
+}
+
+TEST(Agreement, ThinPaneAndDisk)
+{
+    Scene scene = cornell_box(size);
+    const uint pane = add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, true, {1, 1, 1}, {1, 1, 1}});
+    const uint white = add_bsdf(scene, DiffuseBsdf{{0.7f, 0.7f, 0.7f}});
+    const uint both_sides = add_bsdf(scene, TwoSidedBsdf{white, white});
+    scene.shapes.push_back(make_quad({-.8f, .2f, -.8f}, {-.8f, .2f, .8f}, {.8f, .2f, .8f}, {.8f, .2f, -.8f}, pane));
+    ShapeDescription disk;
+    disk.geometry = Disk{{0, -.4f, 0}, {.5f, 0, 0}, {0, 0, .5f}};
+    disk.bsdf = both_sides;
+    scene.shapes.push_back(disk);
+    expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24)}, edge_bias);
+}
+
+TEST(Agreement, EveryEmitter)
+{
+    // Sphere and disk lights, point, spot, directional and constant light together.
+    Scene scene = cornell_box(size);
+    scene.shapes.pop_back(); // the box's own light
+    const uint black = add_bsdf(scene, DiffuseBsdf{{0, 0, 0}});
+    ShapeDescription sphere = make_sphere({-.5f, .3f, 0}, .2f, black);
+    sphere.emitter = AreaEmitter{{4, 4, 4}};
+    scene.shapes.push_back(sphere);
+    ShapeDescription disk;
+    disk.geometry = Disk{{.5f, .9f, 0}, {.3f, 0, 0}, {0, 0, -.2f}};
+    std::get<Disk>(disk.geometry).axis_v = {0, 0, .2f}; // u x v points down
+    disk.bsdf = black;
+    disk.emitter = AreaEmitter{{8, 8, 8}};
+    scene.shapes.push_back(disk);
+    scene.emitters.push_back({{}, PointEmitter{{0, 0, .5f}, {.5f, .5f, .5f}}});
+    scene.emitters.push_back({{}, SpotEmitter{{.3f, .5f, .3f}, {0, -1, 0}, {2, 2, 2}, .5f, .3f}});
+    scene.emitters.push_back({{}, DirectionalEmitter{normalize(Vec3{.2f, -.3f, -1}), {.5f, .5f, .5f}}});
+    scene.emitters.push_back({{}, ConstantEmitter{{.2f, .2f, .2f}}});
+    expect_agreement(scene, {request("path", 128), request("ptracer", 32), request("pppm", 32), request("sppm", 32)}, edge_bias);
+}
+
+TEST(Agreement, ThinLensAndWideFilter)
+{
+    Scene scene = cornell_box(size);
+    scene.sensor.aperture_radius = .1f;
+    scene.sensor.focus_distance = 3.9f;
+    scene.film.filter = {FilterKind::gaussian, 2.0f, 0.5f, 0, 0};
+    expect_agreement(scene, {request("path", 64), request("ptracer", 16), request("pppm", 16)}, edge_bias);
+    scene.film.filter = {FilterKind::mitchell, 2.0f, 0.5f, 1.0f / 3, 1.0f / 3};
+    expect_agreement(scene, {request("path", 64), request("ptracer", 16)}, edge_bias);
+}
+
+} // namespace

@@ -1,0 +1,142 @@
+// Convergence: how fast the error falls, on a scene whose answer is known in every pixel.
+//
+// A point light of intensity I at height h over a diffuse plane: irradiance I h / (h^2 + rho^2)^(3/2). Its
+// Laplacian does not vanish, so density estimation has bias as well as noise.
+
+#include "support/render_replicates.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+using namespace sundog;
+using namespace sundog::test;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr int size = 16; // pixels
+constexpr float half_patch = 0.5f; // the camera sees [-half_patch, half_patch]^2 of the plane
+constexpr float height = 1.0f;
+constexpr float reflectance = 0.5f;
+
+Scene point_over_plane()
+{
+    Scene scene;
+    scene.file = "point over plane";
+    scene.bsdfs.push_back({"", {}, DiffuseBsdf{{reflectance, reflectance, reflectance}}});
+    TriangleMesh plane;
+    plane.positions = {{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}};
+    plane.triangles = {{0, 1, 2}, {0, 2, 3}};
+    ShapeDescription shape;
+    shape.geometry = plane;
+    scene.shapes.push_back(shape);
+    scene.emitters.push_back({{}, PointEmitter{{0, 0, height}, {1, 1, 1}}});
+    scene.sensor.position = {0, 0, 5};
+    scene.sensor.axis_x = {-1, 0, 0};
+    scene.sensor.axis_y = {0, 1, 0};
+    scene.sensor.axis_z = {0, 0, -1};
+    scene.sensor.fov_x = 2.0f * std::atan(half_patch / 5.0f);
+    scene.film.width = scene.film.height = scene.film.crop_width = scene.film.crop_height = size;
+    scene.film.filter = {FilterKind::box, 0.5f, 0.5f, 0, 0};
+    return scene;
+}
+
+// Mean radiance over the pixel's square on the plane, by the midpoint rule.
+double answer(int px, int py)
+{
+    constexpr int steps = 8;
+    const double pixel = 2.0 * half_patch / size;
+    double sum = 0.0;
+    for (int i = 0; i < steps; i++)
+        for (int j = 0; j < steps; j++) {
+            const double x = -half_patch + (px + (i + 0.5) / steps) * pixel;
+            const double y = -half_patch + (py + (j + 0.5) / steps) * pixel;
+            sum += height / std::pow(height * height + x * x + y * y, 1.5);
+        }
+    return sum / (steps * steps) * reflectance / pi;
+}
+
+double squared_error(const Image& image)
+{
+    double sum = 0.0;
+    for (int y = 0; y < size; y++)
+        for (int x = 0; x < size; x++) sum += std::pow(image.at(x, y, 0) - answer(x, y), 2);
+    return sum / (size * size);
+}
+
+struct Slope {
+    double value = 0.0;
+    double standard_error = 0.0;
+};
+
+// Slope of log MSE against log iterations from `first` on, doubling `doublings` times: one fit a seed, so
+// that the seeds' spread gives the error of their mean.
+Slope mse_slope(const RenderRequest& request, std::uint64_t first, int doublings, int seeds)
+{
+    const Scene scene = point_over_plane();
+    std::vector<std::vector<double>> mse(static_cast<std::size_t>(seeds));
+    for (int seed = 0; seed < seeds; seed++) {
+        RenderSettings settings;
+        settings.method = request.method;
+        settings.parameters = request.parameters;
+        settings.seed = static_cast<std::uint64_t>(seed) + 1;
+        RenderSession session(scene, shared_device(), settings);
+        for (int step = 0; step <= doublings; step++) {
+            while (session.iterations_done() < first << step) session.iterate();
+            mse[static_cast<std::size_t>(seed)].push_back(squared_error(session.image()));
+        }
+    }
+    // Jackknife over seeds of the slope fitted to the mean MSE: the mean of logs would be biased.
+    const auto fit = [&](int left_out) {
+        std::vector<double> y(static_cast<std::size_t>(doublings) + 1, 0.0);
+        for (int seed = 0; seed < seeds; seed++)
+            for (std::size_t step = 0; step < y.size(); step++)
+                if (seed != left_out) y[step] += mse[static_cast<std::size_t>(seed)][step];
+        double mean_x = 0.5 * doublings, mean_y = 0.0, xy = 0.0, xx = 0.0;
+        for (double& value : y) {
+            value = std::log2(value);
+            mean_y += value / static_cast<double>(y.size());
+        }
+        for (std::size_t step = 0; step < y.size(); step++) {
+            const double dx = static_cast<double>(step) - mean_x;
+            xy += dx * (y[step] - mean_y);
+            xx += dx * dx;
+        }
+        return xy / xx;
+    };
+    std::vector<double> left_out;
+    for (int seed = 0; seed < seeds; seed++) left_out.push_back(fit(seed));
+    const Estimate spread = estimate_from(left_out);
+    return {fit(-1), spread.standard_error * (seeds - 1)};
+}
+
+TEST(Convergence, UnbiasedMethodsErrorFallsAsOneOverN)
+{
+    for (const RenderRequest& request :
+         {RenderRequest{"path", 0, {{"sampler", "independent"}}}, RenderRequest{"ptracer", 0, {{"sampler", "independent"}, {"photons", "1024"}}}}) {
+        const Slope slope = mse_slope(request, 4, 5, 16);
+        EXPECT_LT(slope.standard_error, 0.05) << request.method;
+        EXPECT_NEAR(slope.value, -1.0, 3.5 * slope.standard_error) << request.method;
+    }
+}
+
+TEST(Convergence, PppmErrorFallsAsNToTheMinusTwoThirds)
+{
+    // [Kaplanyan and Dachsbacher 2013]: at alpha = 2/3 squared bias and variance both fall as N^(-2/3). The
+    // radius is large enough for bias to be a visible part of the error.
+    const Slope slope = mse_slope(
+        {"pppm", 0, {{"sampler", "independent"}, {"photons", "2048"}, {"radius", "0.25"}, {"direct", "photons"}, {"alpha", "0.66666667"}}}, 32, 5, 16);
+    EXPECT_LT(slope.standard_error, 0.05);
+    // Averages over a schedule reach their asymptote slowly: sum_{i<=n} i^(-1/3) = 1.5 n^(2/3) - 0.97 + ...
+    // steepens or flattens the slope between 32 and 1024 iterations by less than 0.02.
+    EXPECT_NEAR(slope.value, -2.0 / 3.0, 3.5 * slope.standard_error + 0.02);
+}
+
+TEST(Convergence, FixedRadiusKeepsItsBias)
+{
+    const Slope slope = mse_slope({"pppm", 0, {{"sampler", "independent"}, {"photons", "16384"}, {"radius", "0.5"}, {"direct", "photons"}, {"alpha", "1"}}}, 16, 4, 4);
+    EXPECT_GT(slope.value, -0.2);
+}
+
+} // namespace

@@ -1,0 +1,98 @@
+// Renders the same scene several times with different seeds, for tests of means and errors.
+#pragma once
+
+#include "device/device.h"
+#include "film/image.h"
+#include "import/mitsuba_xml.h"
+#include "render/session.h"
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sundog::test {
+
+inline Device& shared_device()
+{
+    static Device device(select_device(""));
+    return device;
+}
+
+inline Scene load_test_scene(const std::string& path, const std::map<std::string, std::string>& defines = {})
+{
+    return load_scene(std::string(SUNDOG_SOURCE_DIR) + "/scenes/" + path, {defines}).scene;
+}
+
+// How one render of a test is made. Parameters as with --param.
+struct RenderRequest {
+    std::string method;
+    std::uint64_t iterations = 1;
+    std::map<std::string, std::string> parameters;
+};
+
+inline Image render(const Scene& scene, const RenderRequest& request, std::uint64_t seed)
+{
+    RenderSettings settings;
+    settings.method = request.method;
+    settings.parameters = request.parameters;
+    settings.seed = seed;
+    RenderSession session(scene, shared_device(), settings);
+    for (std::uint64_t i = 0; i < request.iterations; i++) session.iterate();
+    return session.image();
+}
+
+// Mean of R, G and B over a rectangle of pixels.
+inline double window_mean(const Image& image, int x0, int y0, int x1, int y1)
+{
+    double sum = 0.0;
+    for (int y = y0; y < y1; y++)
+        for (int x = x0; x < x1; x++) sum += (image.at(x, y, 0) + image.at(x, y, 1) + image.at(x, y, 2)) / 3.0;
+    return sum / ((x1 - x0) * (y1 - y0));
+}
+
+inline double image_mean(const Image& image)
+{
+    return window_mean(image, 0, 0, image.width, image.height);
+}
+
+// A mean of independent replicates, and its standard error.
+struct Estimate {
+    double mean = 0.0;
+    double standard_error = 0.0;
+};
+
+inline Estimate estimate_from(const std::vector<double>& replicates)
+{
+    const double n = static_cast<double>(replicates.size());
+    double mean = 0.0, squares = 0.0;
+    for (double x : replicates) mean += x / n;
+    for (double x : replicates) squares += (x - mean) * (x - mean);
+    return {mean, std::sqrt(squares / (n - 1.0) / n)};
+}
+
+// Replicates of the image's mean, seeds 1 to `count`.
+inline Estimate estimate_image_mean(const Scene& scene, const RenderRequest& request, int count)
+{
+    std::vector<double> means;
+    for (int seed = 1; seed <= count; seed++) means.push_back(image_mean(render(scene, request, static_cast<std::uint64_t>(seed))));
+    return estimate_from(means);
+}
+
+// Quantile of Student's t distribution beyond which each tail holds `tail`, by bisection on its CDF (Simpson's rule).
+inline double student_quantile(double degrees, double tail)
+{
+    const double norm = std::exp(std::lgamma(0.5 * (degrees + 1)) - std::lgamma(0.5 * degrees)) / std::sqrt(degrees * M_PI);
+    const auto density = [&](double t) { return norm * std::pow(1.0 + t * t / degrees, -0.5 * (degrees + 1)); };
+    const auto upper_tail = [&](double t) {
+        constexpr int steps = 2000;
+        double sum = density(0.0) + density(t);
+        for (int i = 1; i < steps; i++) sum += density(t * i / steps) * (i % 2 ? 4.0 : 2.0);
+        return 0.5 - sum * t / steps / 3.0;
+    };
+    double low = 0.0, high = 200.0;
+    for (int i = 0; i < 60; i++) (upper_tail(0.5 * (low + high)) > tail ? low : high) = 0.5 * (low + high);
+    return 0.5 * (low + high);
+}
+
+} // namespace sundog::test
