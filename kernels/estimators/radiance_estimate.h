@@ -15,10 +15,11 @@ inline void estimator_begin(Estimate* estimate) { estimate->red = estimate->gree
 // Eight photons at squared distances t_squared * radius^2; those not in `mask` (all bits set) count nothing.
 inline void estimator_add(Estimate* estimate, int8 mask, float8 t_squared, float8 red, float8 green, float8 blue)
 {
-    const float8 weight = as_float8(mask & as_int8(kernel_shape(t_squared)));
-    estimate->red += weight * red;
-    estimate->green += weight * green;
-    estimate->blue += weight * blue;
+    // The products are masked, not the weight: a lane beyond the map may hold anything, and 0 * NaN is no 0.
+    const float8 weight = kernel_shape(t_squared);
+    estimate->red += as_float8(mask & as_int8(weight * red));
+    estimate->green += as_float8(mask & as_int8(weight * green));
+    estimate->blue += as_float8(mask & as_int8(weight * blue));
 }
 
 // Irradiance (W/m^2, times emitted paths).

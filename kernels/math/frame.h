@@ -31,17 +31,18 @@ inline float2 octahedral(float3 v)
     return p;
 }
 
-// Two 16-bit octahedral coordinates; error below 1e-4 rad.
+// Two 16-bit octahedral coordinates, each the number q of its cell, which stands for (q + 1/2) / 2^15 - 1; error
+// below 1e-4 rad.
 inline uint pack_direction(float3 v)
 {
-    const uint2 q = convert_uint2(clamp(octahedral(v) * 32767.0f + 32767.5f, 0.0f, 65535.0f));
+    const uint2 q = convert_uint2(clamp(octahedral(v) * 32768.0f + 32768.0f, 0.0f, 65535.0f));
     return q.x | (q.y << 16);
 }
 
-// Two 12-bit octahedral coordinates in the low 24 bits; error below 2e-3 rad.
+// The same with two 12-bit coordinates, (q + 1/2) / 2^11 - 1, in the low 24 bits; error below 1.2e-3 rad.
 inline uint pack_normal(float3 v)
 {
-    const uint2 q = convert_uint2(clamp(octahedral(v) * 2047.0f + 2047.5f, 0.0f, 4095.0f));
+    const uint2 q = convert_uint2(clamp(octahedral(v) * 2048.0f + 2048.0f, 0.0f, 4095.0f));
     return q.x | (q.y << 12);
 }
 

@@ -10,8 +10,8 @@
 // Lanes whose packed normal is close to the query's: n . m > c |m| for the unnormalised octahedral m.
 inline int8 on_same_side(uint8 packed, float3 normal)
 {
-    float8 x = convert_float8(packed & 0xfffu) * (1.0f / 2047.5f) - 1.0f;
-    float8 y = convert_float8((packed >> 12) & 0xfffu) * (1.0f / 2047.5f) - 1.0f;
+    float8 x = (convert_float8(packed & 0xfffu) + 0.5f) * (1.0f / 2048.0f) - 1.0f;
+    float8 y = (convert_float8((packed >> 12) & 0xfffu) + 0.5f) * (1.0f / 2048.0f) - 1.0f;
     const float8 ax = fabs(x), ay = fabs(y);
     const float8 z = 1.0f - ax - ay;
     const float8 fold = z < 0.0f ? -z : (float8)(0.0f);

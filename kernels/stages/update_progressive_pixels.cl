@@ -16,9 +16,10 @@ __kernel void update_progressive_pixels(__global const GatherQuery* restrict que
     const float3 direct = unpack(radiance[index]);
     const float found = sums[index].count;
     if (is_finite3(direct)) add_compensated3(&pixel.direct, &pixel.direct_error, direct);
-    if (queries[index].radius > 0.0f && found > 0.0f && is_finite3(unpack(sums[index].flux))) {
-        const float3 flux = unpack(queries[index].throughput) * unpack(sums[index].flux); // beta Psi
-        radiance[index] = pack(direct + flux * (inverse_paths / (PI * pixel.radius_squared)));
+    const float3 flux = unpack(queries[index].throughput) * unpack(sums[index].flux); // beta Psi
+    if (queries[index].radius > 0.0f && found > 0.0f) radiance[index] = pack(direct + flux * (inverse_paths / (PI * pixel.radius_squared)));
+    // What is not finite stays out of the statistics; the film counts it.
+    if (queries[index].radius > 0.0f && found > 0.0f && is_finite3(flux)) {
         const float before = pixel.count + pixel.count_error;
         const float shrink = (before + alpha * found) / (before + found); // (8): r'^2 / r^2
         add_compensated(&pixel.count, &pixel.count_error, alpha * found); // (7)
