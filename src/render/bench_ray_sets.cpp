@@ -134,8 +134,10 @@ BenchScene large_bench_scene()
     return scene;
 }
 
-EmbreeTracer::EmbreeTracer(const TriangleMesh& mesh) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_.get()))
+EmbreeTracer::EmbreeTracer(const TriangleMesh& mesh, RTCSceneFlags flags)
+    : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_.get()))
 {
+    rtcSetSceneFlags(scene_.get(), flags);
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), mesh.positions.size());

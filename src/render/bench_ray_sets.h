@@ -26,12 +26,12 @@ BenchScene small_bench_scene();
 // About a million: rough terrain with spheres above it, in a box.
 BenchScene large_bench_scene();
 
-// Embree's own hierarchy of high quality with its default flags, and its single-ray functions on all
-// hardware threads.
+// Embree's own hierarchy of high quality, with its default flags unless told otherwise, and its single-ray
+// functions on all hardware threads.
 class EmbreeTracer
 {
 public:
-    explicit EmbreeTracer(const TriangleMesh& mesh);
+    explicit EmbreeTracer(const TriangleMesh& mesh, RTCSceneFlags flags = RTC_SCENE_FLAG_NONE);
     void closest(const std::vector<Ray>& rays, std::vector<Hit>& hits) const; // u, v as in Hit
     void any(const std::vector<Ray>& rays, std::vector<uint>& occluded) const;
 

@@ -41,25 +41,33 @@ Bounds round_outwards(const Point& lower, const Point& upper)
             {round_up(upper[0]), round_up(upper[1]), round_up(upper[2])}};
 }
 
-// Box of points that are given in double precision.
-struct PointBounds {
-    Point lower{INFINITY, INFINITY, INFINITY};
-    Point upper{-INFINITY, -INFINITY, -INFINITY};
+void set_component(Vec3& v, int axis, float value)
+{
+    (axis == 0 ? v.x : axis == 1 ? v.y : v.z) = value;
+}
 
-    void extend(const Point& p)
-    {
-        for (int k = 0; k < 3; k++) {
-            lower[k] = std::min(lower[k], p[k]);
-            upper[k] = std::max(upper[k], p[k]);
-        }
-    }
-};
+Vec3 absolute(Vec3 v)
+{
+    return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+}
+
+// Where the edge crosses the plane x[axis] = position, within rounding: thirteen roundings at most of numbers no larger
+// than the end points' coordinates.
+Bounds crossing(Vec3 from, Vec3 to, int axis, float position)
+{
+    const float before = component(from, axis) - position, after = component(to, axis) - position;
+    const Vec3 point = from + before / (before - after) * (to - from);
+    const Vec3 error = 0x1p-20f * max(absolute(from), absolute(to));
+    Bounds bounds{point - error, point + error};
+    set_component(bounds.lower, axis, position);
+    set_component(bounds.upper, axis, position);
+    return bounds;
+}
 
 // The part of `bounds` inside `box`; all of the box where rounding leaves nothing.
-Bounds within(const PointBounds& bounds, const Bounds& box)
+Bounds within(const Bounds& bounds, const Bounds& box)
 {
-    const Bounds rounded = round_outwards(bounds.lower, bounds.upper);
-    const Bounds common{max(rounded.lower, box.lower), min(rounded.upper, box.upper)};
+    const Bounds common{max(bounds.lower, box.lower), min(bounds.upper, box.upper)};
     const bool valid = common.lower.x <= common.upper.x && common.lower.y <= common.upper.y && common.lower.z <= common.upper.z;
     return valid ? common : box;
 }
@@ -138,27 +146,26 @@ std::vector<BvhPrimitive> collect_primitives(const BvhGeometry& geometry)
 
 SplitBounds split_bounds(const BvhGeometry& geometry, uint id, const Bounds& box, int axis, float position)
 {
-    SplitBounds boxes{box, box};
-    (&boxes.below.upper.x)[axis] = position;
-    (&boxes.above.lower.x)[axis] = position;
-    if (id & ANALYTIC_BIT) return boxes;
-    PointBounds below, above;
+    SplitBounds halves{box, box};
+    set_component(halves.below.upper, axis, position);
+    set_component(halves.above.lower, axis, position);
+    if (id & ANALYTIC_BIT) return halves;
+    Bounds below, above;
     const Triangle& triangle = geometry.triangles[id];
-    for (int k = 0; k < 3; k++) {
-        const Point from = to_point(geometry.positions[triangle.vertex[k]]);
-        const Point to = to_point(geometry.positions[triangle.vertex[(k + 1) % 3]]);
-        const double before = from[axis] - position, after = to[axis] - position;
-        if (before <= 0.0) below.extend(from);
-        if (before >= 0.0) above.extend(from);
-        if (before * after < 0.0) { // the edge crosses the plane
-            Point crossing;
-            for (int j = 0; j < 3; j++) crossing[j] = from[j] + before / (before - after) * (to[j] - from[j]);
-            crossing[axis] = position;
-            below.extend(crossing);
-            above.extend(crossing);
+    Vec3 from = geometry.positions[triangle.vertex[2]];
+    for (uint vertex : triangle.vertex) {
+        const Vec3 to = geometry.positions[vertex];
+        const float start = component(from, axis), end = component(to, axis);
+        if (end <= position) below.extend(to);
+        if (end >= position) above.extend(to);
+        if ((start < position && end > position) || (start > position && end < position)) {
+            const Bounds cut = crossing(from, to, axis, position);
+            below.extend(cut);
+            above.extend(cut);
         }
+        from = to;
     }
-    return {within(below, boxes.below), within(above, boxes.above)};
+    return {within(below, halves.below), within(above, halves.above)};
 }
 
 } // namespace sundog
