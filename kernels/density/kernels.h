@@ -12,7 +12,7 @@
 #define KERNEL_NORM ((DENSITY_KERNEL + 1) * INV_PI_F)
 
 // k(t) / KERNEL_NORM for eight t^2 in [0, 1].
-inline float8 kernel_shape(float8 t_squared)
+static inline float8 kernel_shape(float8 t_squared)
 {
     const float8 s = 1.0f - t_squared;
 #if DENSITY_KERNEL == KERNEL_UNIFORM

@@ -3,6 +3,6 @@
 #define SUNDOG_KEY_CHUNK_H
 
 // First of n keys in a chunk; chunks differ by at most one key.
-inline uint chunk_start(uint n, uint chunk, uint chunks) { return (uint)((ulong)n * chunk / chunks); }
+static inline uint chunk_start(uint n, uint chunk, uint chunks) { return (uint)((ulong)n * chunk / chunks); }
 
 #endif

@@ -6,15 +6,15 @@
 #include "shared/photon.h"
 
 // Table entry of cell (0, y, z); the row's other cells follow.
-inline uint grid_row(const PhotonGrid* grid, uint y, uint z)
+static inline uint grid_row(const PhotonGrid* grid, uint y, uint z)
 {
     return grid->hashed ? hash_uint(y * 0x9e3779b9u + z * 0x85ebca6bu) : (z * grid->cells_y + y) * grid->cells_x;
 }
 
-inline uint grid_entry(const PhotonGrid* grid, uint row, uint x) { return grid->hashed ? (row + x) & (grid->cell_count - 1u) : row + x; }
+static inline uint grid_entry(const PhotonGrid* grid, uint row, uint x) { return grid->hashed ? (row + x) & (grid->cell_count - 1u) : row + x; }
 
 // Cell of a photon; photons outside of the grid (by rounding) go to its border.
-inline uint cell_of_photon(const PhotonGrid* grid, float3 position)
+static inline uint cell_of_photon(const PhotonGrid* grid, float3 position)
 {
     const float3 cell = (position - unpack(grid->origin)) * grid->inverse_cell_size;
     const uint x = min((uint)fmax(cell.x, 0.0f), grid->cells_x - 1u);
@@ -28,7 +28,7 @@ typedef struct PhotonRun {
     uint begin, end;
 } PhotonRun;
 
-inline PhotonRun photon_run(__global const uint* cell_ends, uint first, uint last)
+static inline PhotonRun photon_run(__global const uint* cell_ends, uint first, uint last)
 {
     PhotonRun run = {first == 0u ? 0u : cell_ends[first - 1u], cell_ends[last]};
     return run;
@@ -36,7 +36,7 @@ inline PhotonRun photon_run(__global const uint* cell_ends, uint first, uint las
 
 // The runs that hold all photons within the radius that the grid was built for. Dense: one run a row,
 // of two neighbouring cells. Hashed: one a cell, each table entry once, since several cells may share it.
-inline uint find_photon_runs(const PhotonGrid* grid, __global const uint* cell_ends, float3 position, PhotonRun runs[8])
+static inline uint find_photon_runs(const PhotonGrid* grid, __global const uint* cell_ends, float3 position, PhotonRun runs[8])
 {
     const float3 cell = (position - unpack(grid->origin)) * grid->inverse_cell_size - 0.5f;
     const int x = (int)floor(cell.x), y = (int)floor(cell.y), z = (int)floor(cell.z);

@@ -10,14 +10,14 @@ typedef struct Estimate {
     int8 count;
 } Estimate;
 
-inline void estimator_begin(Estimate* estimate)
+static inline void estimator_begin(Estimate* estimate)
 {
     estimate->red = estimate->green = estimate->blue = (float8)(0.0f);
     estimate->count = (int8)(0);
 }
 
 // Eight photons; those not in `mask` (all bits set) count nothing.
-inline void estimator_add(Estimate* estimate, int8 mask, float8 t_squared, float8 red, float8 green, float8 blue)
+static inline void estimator_add(Estimate* estimate, int8 mask, float8 t_squared, float8 red, float8 green, float8 blue)
 {
     estimate->red += as_float8(mask & as_int8(red));
     estimate->green += as_float8(mask & as_int8(green));
@@ -26,7 +26,7 @@ inline void estimator_add(Estimate* estimate, int8 mask, float8 t_squared, float
 }
 
 // Flux (W, times emitted paths) and the number of photons.
-inline GatherSum estimator_end(const Estimate* estimate, float radius)
+static inline GatherSum estimator_end(const Estimate* estimate, float radius)
 {
     const GatherSum sum = {{sum8(estimate->red), sum8(estimate->green), sum8(estimate->blue)}, sum8(convert_float8(estimate->count))};
     return sum;

@@ -10,10 +10,10 @@ typedef struct Estimate {
     float8 red, green, blue;
 } Estimate;
 
-inline void estimator_begin(Estimate* estimate) { estimate->red = estimate->green = estimate->blue = (float8)(0.0f); }
+static inline void estimator_begin(Estimate* estimate) { estimate->red = estimate->green = estimate->blue = (float8)(0.0f); }
 
 // Eight photons at squared distances t_squared * radius^2; those not in `mask` (all bits set) count nothing.
-inline void estimator_add(Estimate* estimate, int8 mask, float8 t_squared, float8 red, float8 green, float8 blue)
+static inline void estimator_add(Estimate* estimate, int8 mask, float8 t_squared, float8 red, float8 green, float8 blue)
 {
     // The products are masked, not the weight: a lane beyond the map may hold anything, and 0 * NaN is no 0.
     const float8 weight = kernel_shape(t_squared);
@@ -23,7 +23,7 @@ inline void estimator_add(Estimate* estimate, int8 mask, float8 t_squared, float
 }
 
 // Irradiance (W/m^2, times emitted paths).
-inline GatherSum estimator_end(const Estimate* estimate, float radius)
+static inline GatherSum estimator_end(const Estimate* estimate, float radius)
 {
     const float scale = KERNEL_NORM / (radius * radius);
     const GatherSum sum = {{sum8(estimate->red) * scale, sum8(estimate->green) * scale, sum8(estimate->blue) * scale}, 0.0f};

@@ -4,7 +4,7 @@
 #include "math/vec3.h"
 
 // Adds x to the sum (*sum + *error), exactly but for second-order rounding [Neumaier 1974].
-inline void add_compensated(float* sum, float* error, float x)
+static inline void add_compensated(float* sum, float* error, float x)
 {
 #pragma OPENCL FP_CONTRACT OFF
     const float total = *sum + x;
@@ -12,7 +12,7 @@ inline void add_compensated(float* sum, float* error, float x)
     *sum = total;
 }
 
-inline void add_compensated3(Vec3* sum, Vec3* error, float3 x)
+static inline void add_compensated3(Vec3* sum, Vec3* error, float3 x)
 {
     add_compensated(&sum->x, &error->x, x.x);
     add_compensated(&sum->y, &error->y, x.y);

@@ -8,7 +8,7 @@ typedef struct Frame {
 } Frame;
 
 // [Duff et al. 2017, Building an Orthonormal Basis, Revisited]. n: unit length.
-inline Frame make_frame(float3 n)
+static inline Frame make_frame(float3 n)
 {
     const float sign = copysign(1.0f, n.z);
     const float a = -1.0f / (sign + n.z);
@@ -20,10 +20,10 @@ inline Frame make_frame(float3 n)
     return frame;
 }
 
-inline float3 to_world(Frame frame, float3 v) { return frame.s * v.x + frame.t * v.y + frame.n * v.z; }
+static inline float3 to_world(Frame frame, float3 v) { return frame.s * v.x + frame.t * v.y + frame.n * v.z; }
 
 // Unit vector on the octahedron, folded to the square [-1, 1]^2 [Cigolle et al. 2014].
-inline float2 octahedral(float3 v)
+static inline float2 octahedral(float3 v)
 {
     const float scale = 1.0f / (fabs(v.x) + fabs(v.y) + fabs(v.z));
     float2 p = v.xy * scale;
@@ -33,14 +33,14 @@ inline float2 octahedral(float3 v)
 
 // Two 16-bit octahedral coordinates, each the number q of its cell, which stands for (q + 1/2) / 2^15 - 1; error
 // below 1e-4 rad.
-inline uint pack_direction(float3 v)
+static inline uint pack_direction(float3 v)
 {
     const uint2 q = convert_uint2(clamp(octahedral(v) * 32768.0f + 32768.0f, 0.0f, 65535.0f));
     return q.x | (q.y << 16);
 }
 
 // The same with two 12-bit coordinates, (q + 1/2) / 2^11 - 1, in the low 24 bits; error below 1.2e-3 rad.
-inline uint pack_normal(float3 v)
+static inline uint pack_normal(float3 v)
 {
     const uint2 q = convert_uint2(clamp(octahedral(v) * 2048.0f + 2048.0f, 0.0f, 4095.0f));
     return q.x | (q.y << 12);

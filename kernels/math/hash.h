@@ -3,7 +3,7 @@
 #define SUNDOG_HASH_H
 
 // A bijection of 32-bit words with low bias [Wellons 2018, "lowbias32"].
-inline uint hash_uint(uint x)
+static inline uint hash_uint(uint x)
 {
     x ^= x >> 16;
     x *= 0x7feb352du;
@@ -12,7 +12,7 @@ inline uint hash_uint(uint x)
     return x ^ (x >> 16);
 }
 
-inline uint4 hash_uint4(uint4 x)
+static inline uint4 hash_uint4(uint4 x)
 {
     x ^= x >> 16;
     x *= 0x7feb352du;
@@ -22,8 +22,8 @@ inline uint4 hash_uint4(uint4 x)
 }
 
 // The upper 24 bits of each word as a number in [0, 1).
-inline float4 unit_float4(uint4 x) { return convert_float4(as_int4(x >> 8)) * 0x1p-24f; }
+static inline float4 unit_float4(uint4 x) { return convert_float4(as_int4(x >> 8)) * 0x1p-24f; }
 
-inline uint hash_combine(uint seed, uint value) { return hash_uint(seed ^ (value + 0x9e3779b9u + (seed << 6) + (seed >> 2))); }
+static inline uint hash_combine(uint seed, uint value) { return hash_uint(seed ^ (value + 0x9e3779b9u + (seed << 6) + (seed >> 2))); }
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef SUNDOG_PHILOX_H
 #define SUNDOG_PHILOX_H
 
-inline uint4 philox4x32(uint4 counter, uint2 key)
+static inline uint4 philox4x32(uint4 counter, uint2 key)
 {
     for (int round = 0; round < 10; ++round) {
         const uint high0 = mul_hi(0xd2511f53u, counter.x), low0 = 0xd2511f53u * counter.x;

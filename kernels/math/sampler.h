@@ -18,7 +18,7 @@ typedef struct Sampler {
 
 // A path's sampler, at the start of vertex `depth` (0: the path's origin). `sequence` numbers the
 // sequences of a stream (a pixel's, say), `index` the points of the sequence.
-inline Sampler make_sampler(SamplerKey key, uint stream, uint sequence, ulong index, uint depth)
+static inline Sampler make_sampler(SamplerKey key, uint stream, uint sequence, ulong index, uint depth)
 {
     Sampler sampler;
     sampler.index = index;
@@ -34,22 +34,22 @@ inline Sampler make_sampler(SamplerKey key, uint stream, uint sequence, ulong in
     return sampler;
 }
 
-inline ulong iteration_of(SamplerKey key) { return ((ulong)key.iteration_high << 32) | key.iteration_low; }
+static inline ulong iteration_of(SamplerKey key) { return ((ulong)key.iteration_high << 32) | key.iteration_low; }
 
 // Camera paths: one sequence a pixel, one point an iteration.
-inline Sampler camera_sampler(SamplerKey key, uint pixel, uint depth)
+static inline Sampler camera_sampler(SamplerKey key, uint pixel, uint depth)
 {
     return make_sampler(key, STREAM_CAMERA, pixel, iteration_of(key), depth);
 }
 
 // Light paths: one sequence for all, continued from iteration to iteration.
-inline Sampler light_sampler(SamplerKey key, uint path, uint paths_per_iteration, uint depth)
+static inline Sampler light_sampler(SamplerKey key, uint path, uint paths_per_iteration, uint depth)
 {
     return make_sampler(key, STREAM_LIGHT, 0u, iteration_of(key) * paths_per_iteration + path, depth);
 }
 
 // The next four numbers, each in [0, 1).
-inline float4 next_4d(Sampler* sampler)
+static inline float4 next_4d(Sampler* sampler)
 {
     const uint block = sampler->block++;
 #if SAMPLER == SAMPLER_SOBOL

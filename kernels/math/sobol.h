@@ -139,7 +139,7 @@ __constant const uint SOBOL_NIBBLES[8 * 16 * 4] = {
 
 // Owen scrambling of a bit-reversed word: a hash in which each bit depends on lower bits only
 // [Laine and Karras 2011], with the constants of [Vegdahl 2021].
-inline uint scramble_reversed(uint x, uint seed)
+static inline uint scramble_reversed(uint x, uint seed)
 {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -149,7 +149,7 @@ inline uint scramble_reversed(uint x, uint seed)
     return x;
 }
 
-inline uint4 scramble_reversed4(uint4 x, uint4 seed)
+static inline uint4 scramble_reversed4(uint4 x, uint4 seed)
 {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -159,7 +159,7 @@ inline uint4 scramble_reversed4(uint4 x, uint4 seed)
     return x;
 }
 
-inline uint4 reverse_bits4(uint4 x)
+static inline uint4 reverse_bits4(uint4 x)
 {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
@@ -168,12 +168,12 @@ inline uint4 reverse_bits4(uint4 x)
     return (x >> 16) | (x << 16);
 }
 
-inline uint reverse_bits(uint x) { return reverse_bits4((uint4)(x)).x; }
+static inline uint reverse_bits(uint x) { return reverse_bits4((uint4)(x)).x; }
 
 // Point `index` of the scrambled, shuffled 4-D sequence that `seed` names, in [0,1)^4. Different
 // seeds give independently scrambled sequences, to be padded into more dimensions
 // [Burley 2020, Practical Hash-based Owen Scrambling].
-inline float4 sobol_owen_4d(uint index, uint seed)
+static inline float4 sobol_owen_4d(uint index, uint seed)
 {
     const uint4 seeds = hash_uint4(seed ^ (uint4)(0x9e3779b9u, 0x7f4a7c15u, 0xf39cc060u, 0x5cedc834u));
     const uint shuffled = scramble_reversed(reverse_bits(index), seed);

@@ -7,7 +7,7 @@
 #define INV_PI_F 0.318309886183791f
 
 // Uniform on the unit disk, by the concentric map [Shirley and Chiu 1997]. Density 1 / pi.
-inline float2 sample_disk(float2 u)
+static inline float2 sample_disk(float2 u)
 {
     const float2 p = 2.0f * u - 1.0f;
     if (p.x == 0.0f && p.y == 0.0f) return p;
@@ -18,7 +18,7 @@ inline float2 sample_disk(float2 u)
 }
 
 // Cosine-weighted about +z. Density cos / pi (1/sr).
-inline float3 sample_cosine_hemisphere(float2 u)
+static inline float3 sample_cosine_hemisphere(float2 u)
 {
     const float2 p = sample_disk(u);
     return (float3)(p, sqrt(fmax(0.0f, 1.0f - dot(p, p))));
@@ -26,7 +26,7 @@ inline float3 sample_cosine_hemisphere(float2 u)
 
 // Uniform within the cone about +z whose cosine is cos_max, of `one_minus_cos` = 1 - cos_max, given
 // apart because small cones lose it. Density 1 / (2 pi one_minus_cos) (1/sr).
-inline float3 sample_cone(float2 u, float one_minus_cos)
+static inline float3 sample_cone(float2 u, float one_minus_cos)
 {
     const float h = u.x * one_minus_cos; // 1 - cos theta
     const float sin_theta = sqrt(fmax(0.0f, h * (2.0f - h)));
@@ -35,10 +35,10 @@ inline float3 sample_cone(float2 u, float one_minus_cos)
 }
 
 // Uniform on the unit sphere. Density 1 / (4 pi) (1/sr).
-inline float3 sample_sphere(float2 u) { return sample_cone(u, 2.0f); }
+static inline float3 sample_sphere(float2 u) { return sample_cone(u, 2.0f); }
 
 // Uniform on a triangle: barycentric weights of its second and third vertex [Heitz 2019]. Density 1 / area.
-inline float2 sample_triangle(float2 u)
+static inline float2 sample_triangle(float2 u)
 {
     const float2 half_u = 0.5f * u;
     const float offset = half_u.y - half_u.x;

@@ -26,7 +26,7 @@ typedef struct Scattering {
     float cos_o; // of the outgoing direction to that normal; negative behind a one-sided surface
 } Scattering;
 
-inline Scattering scattering_at(const SurfaceView* scene, const Surface* surface)
+static inline Scattering scattering_at(const SurfaceView* scene, const Surface* surface)
 {
     Scattering scattering;
     scattering.bsdf = scene->bsdfs[scene->shapes[surface->shape].bsdf];
@@ -40,17 +40,17 @@ inline Scattering scattering_at(const SurfaceView* scene, const Surface* surface
     return scattering;
 }
 
-inline bool is_specular(const Scattering* scattering) { return scattering->bsdf.type != BSDF_DIFFUSE; }
+static inline bool is_specular(const Scattering* scattering) { return scattering->bsdf.type != BSDF_DIFFUSE; }
 
 // Light that neither arrives nor leaves: the black back of an opaque one-sided surface.
-inline bool is_black_side(const Scattering* scattering)
+static inline bool is_black_side(const Scattering* scattering)
 {
     return scattering->cos_o <= 0.0f && (scattering->bsdf.type == BSDF_DIFFUSE || scattering->bsdf.type == BSDF_CONDUCTOR);
 }
 
 // f (1/sr), without the cosine, from `incoming` (unit, towards where light comes from) to the outgoing
 // direction. Zero for specular BSDFs.
-inline float3 bsdf_evaluate(const Scattering* scattering, const Surface* surface, float3 incoming)
+static inline float3 bsdf_evaluate(const Scattering* scattering, const Surface* surface, float3 incoming)
 {
     const bool same_side = dot(incoming, scattering->normal) > 0.0f && scattering->cos_o > 0.0f &&
                            dot(incoming, surface->geometric_normal) * dot(surface->outgoing, surface->geometric_normal) > 0.0f;
@@ -58,7 +58,7 @@ inline float3 bsdf_evaluate(const Scattering* scattering, const Surface* surface
 }
 
 // Density (1/sr) with which bsdf_sample chooses `incoming`. Zero for specular BSDFs.
-inline float bsdf_pdf_w(const Scattering* scattering, float3 incoming)
+static inline float bsdf_pdf_w(const Scattering* scattering, float3 incoming)
 {
     const float cos_i = dot(incoming, scattering->normal);
     return scattering->bsdf.type == BSDF_DIFFUSE && cos_i > 0.0f && scattering->cos_o > 0.0f ? cos_i * INV_PI_F : 0.0f;
@@ -66,15 +66,15 @@ inline float bsdf_pdf_w(const Scattering* scattering, float3 incoming)
 
 // --- One function a model. `o` is the outgoing direction, n the side's normal. ------------------------
 
-inline BsdfSample specular_sample(float3 direction, float3 weight)
+static inline BsdfSample specular_sample(float3 direction, float3 weight)
 {
     BsdfSample sample = {direction, weight, PDF_DELTA, 1.0f};
     return sample;
 }
 
-inline float3 reflect(float3 o, float3 n, float cos_o) { return normalize(2.0f * cos_o * n - o); }
+static inline float3 reflect(float3 o, float3 n, float cos_o) { return normalize(2.0f * cos_o * n - o); }
 
-inline BsdfSample sample_diffuse(const Scattering* scattering, float2 u)
+static inline BsdfSample sample_diffuse(const Scattering* scattering, float2 u)
 {
     const float3 local_direction = sample_cosine_hemisphere(u);
     BsdfSample sample;
@@ -85,7 +85,7 @@ inline BsdfSample sample_diffuse(const Scattering* scattering, float2 u)
     return sample;
 }
 
-inline BsdfSample sample_dielectric(const Scattering* scattering, float3 o, float u, int carries)
+static inline BsdfSample sample_dielectric(const Scattering* scattering, float3 o, float u, int carries)
 {
     const bool entering = scattering->cos_o > 0.0f;
     const float3 n = entering ? scattering->normal : -scattering->normal;
@@ -104,7 +104,7 @@ inline BsdfSample sample_dielectric(const Scattering* scattering, float3 o, floa
 }
 
 // A pane: inter-reflections between its two faces summed up, R' = 2 R / (1 + R); light passes unbent.
-inline BsdfSample sample_thin_dielectric(const Scattering* scattering, float3 o, float u)
+static inline BsdfSample sample_thin_dielectric(const Scattering* scattering, float3 o, float u)
 {
     const float cos_o = fabs(scattering->cos_o);
     const float3 n = scattering->cos_o > 0.0f ? scattering->normal : -scattering->normal;
@@ -115,14 +115,14 @@ inline BsdfSample sample_thin_dielectric(const Scattering* scattering, float3 o,
     return specular_sample(-o, unpack(scattering->bsdf.transmittance));
 }
 
-inline BsdfSample sample_conductor(const Scattering* scattering, float3 o)
+static inline BsdfSample sample_conductor(const Scattering* scattering, float3 o)
 {
     const float3 fresnel = fresnel_conductor(scattering->cos_o, unpack(scattering->bsdf.eta_rgb), unpack(scattering->bsdf.k_rgb));
     return specular_sample(reflect(o, scattering->normal, scattering->cos_o), fresnel * unpack(scattering->bsdf.reflectance));
 }
 
 // Chooses where a path goes on. False: it is absorbed.
-inline bool bsdf_sample(const Scattering* scattering, const Surface* surface, float4 u, int carries, BsdfSample* sample)
+static inline bool bsdf_sample(const Scattering* scattering, const Surface* surface, float4 u, int carries, BsdfSample* sample)
 {
     if (is_black_side(scattering)) return false;
     const float3 o = surface->outgoing;
@@ -140,7 +140,7 @@ inline bool bsdf_sample(const Scattering* scattering, const Surface* surface, fl
 }
 
 // Light subpaths see the adjoint BSDF: interpolated normals scale it [Veach 1997, section 5.3].
-inline float adjoint_shading_scale(const Surface* surface, float3 direction)
+static inline float adjoint_shading_scale(const Surface* surface, float3 direction)
 {
     const float numerator = fabs(dot(surface->outgoing, surface->shading_normal) * dot(direction, surface->geometric_normal));
     const float denominator = fabs(dot(surface->outgoing, surface->geometric_normal) * dot(direction, surface->shading_normal));

@@ -9,7 +9,7 @@
 // Paths are numbered by tiles of the crop, so that neighbours in the list are neighbours in the image.
 #define TILE_SIZE 8u
 
-inline uint2 pixel_of_path(uint path, uint width, uint height)
+static inline uint2 pixel_of_path(uint path, uint width, uint height)
 {
     const uint row = path / (TILE_SIZE * width); // of tiles
     const uint tile_height = min(TILE_SIZE, height - row * TILE_SIZE);
@@ -20,7 +20,7 @@ inline uint2 pixel_of_path(uint path, uint width, uint height)
     return (uint2)(column * TILE_SIZE + in_tile % tile_width, row * TILE_SIZE + in_tile / tile_width);
 }
 
-inline uint path_of_pixel(uint2 pixel, uint width, uint height)
+static inline uint path_of_pixel(uint2 pixel, uint width, uint height)
 {
     const uint2 tile = pixel / TILE_SIZE;
     const uint tile_height = min(TILE_SIZE, height - tile.y * TILE_SIZE);
@@ -31,7 +31,7 @@ inline uint path_of_pixel(uint2 pixel, uint width, uint height)
 
 // Offset from the pixel's centre, drawn from the |filter|; .y of the result is the sample's weight.
 // Filter importance sampling [Ernst et al. 2006]: pixels need no splats.
-inline float2 sample_filter(__global const PixelFilter* filter, float u)
+static inline float2 sample_filter(__global const PixelFilter* filter, float u)
 {
     uint low = 0u, high = FILTER_BINS;
     while (high - low > 1u) {
@@ -46,18 +46,18 @@ inline float2 sample_filter(__global const PixelFilter* filter, float u)
 }
 
 // Direction in camera space, with z = 1, through a point of the full film (pixels from its upper left).
-inline float3 camera_direction(const Camera* camera, float2 film)
+static inline float3 camera_direction(const Camera* camera, float2 film)
 {
     const float2 ndc = 2.0f * film / (float2)((float)camera->film_width, (float)camera->film_height) - 1.0f;
     return (float3)(-ndc.x * camera->tan_half_x, -ndc.y * camera->tan_half_y, 1.0f);
 }
 
-inline float3 camera_to_world(const Camera* camera, float3 v)
+static inline float3 camera_to_world(const Camera* camera, float3 v)
 {
     return unpack(camera->axis_x) * v.x + unpack(camera->axis_y) * v.y + unpack(camera->axis_z) * v.z;
 }
 
-inline Ray camera_ray(const Camera* camera, float2 film, float2 lens)
+static inline Ray camera_ray(const Camera* camera, float2 film, float2 lens)
 {
     float3 direction = camera_direction(camera, film);
     float3 origin = (float3)(0.0f);
@@ -86,7 +86,7 @@ typedef struct CameraConnection {
 
 // [Veach 1997, section 8.3.2]; We of a pinhole camera is 1 / (A cos^3) for a film of area A at distance 1, with
 // the cosine at the lens taken out here because the caller's geometry term has none.
-inline CameraConnection connect_to_camera(const Camera* camera, float3 point, float2 u)
+static inline CameraConnection connect_to_camera(const Camera* camera, float3 point, float2 u)
 {
     CameraConnection connection;
     float3 lens = (float3)(0.0f);

@@ -5,7 +5,7 @@
 #include "scene/bsdf.h"
 #include "shared/path.h"
 
-inline void scatter_path(PathState* path, const BsdfSample* sample, float3 throughput)
+static inline void scatter_path(PathState* path, const BsdfSample* sample, float3 throughput)
 {
     path->throughput = pack(throughput);
     path->pdf_w = sample->pdf_w;
@@ -16,7 +16,7 @@ inline void scatter_path(PathState* path, const BsdfSample* sample, float3 throu
 
 // Extends a camera path; writes its next ray. False: the path ends here. Survival by throughput, without
 // the radiance scale of refraction, which is undone when the path leaves the glass again.
-inline bool continue_camera_path(const Surface* surface, const Scattering* scattering, PathRules rules, Sampler* sampler, PathState* path, Ray* ray)
+static inline bool continue_camera_path(const Surface* surface, const Scattering* scattering, PathRules rules, Sampler* sampler, PathState* path, Ray* ray)
 {
     const float4 u = next_4d(sampler);
     BsdfSample sample;
@@ -34,7 +34,7 @@ inline bool continue_camera_path(const Surface* surface, const Scattering* scatt
 }
 
 // Extends a light path. Survival by albedo, so that photons keep equal flux.
-inline bool continue_light_path(const Surface* surface, const Scattering* scattering, PathRules rules, Sampler* sampler, PathState* path, Ray* ray)
+static inline bool continue_light_path(const Surface* surface, const Scattering* scattering, PathRules rules, Sampler* sampler, PathState* path, Ray* ray)
 {
     const float4 u = next_4d(sampler);
     BsdfSample sample;
@@ -55,7 +55,7 @@ inline bool continue_light_path(const Surface* surface, const Scattering* scatte
 
 // Light arriving per geometric area becomes irradiance about the shading normal: |cos_s| / |cos_g| at
 // the vertex where a light path ends, see [Veach 1997, section 5.3].
-inline float irradiance_scale(const Surface* surface)
+static inline float irradiance_scale(const Surface* surface)
 {
     const float cos_g = fabs(dot(surface->outgoing, surface->geometric_normal));
     return cos_g > 1e-4f ? fabs(dot(surface->outgoing, surface->shading_normal)) / cos_g : 0.0f;

@@ -6,12 +6,12 @@
 #include "scene/lights.h"
 
 // [Veach 1997, section 9.2.2], the balance heuristic for one sample of each of two techniques.
-inline float balance_heuristic(float pdf, float other_pdf) { return pdf / (pdf + other_pdf); }
+static inline float balance_heuristic(float pdf, float other_pdf) { return pdf / (pdf + other_pdf); }
 
 // Radiance that one light sample sends along the outgoing direction, if its shadow ray is free. With
 // `mis`, weighted against finding the same light by BSDF sampling. The shadow ray is no_ray() when
 // there is nothing to ask.
-inline float3 sample_direct_light(const SurfaceView* scene, const Surface* surface, const Scattering* scattering, float4 u, bool mis, Ray* shadow_ray)
+static inline float3 sample_direct_light(const SurfaceView* scene, const Surface* surface, const Scattering* scattering, float4 u, bool mis, Ray* shadow_ray)
 {
     *shadow_ray = no_ray();
     LightSample light;

@@ -8,7 +8,7 @@ typedef struct EmissionSample {
     float3 flux; // radiance * cos / pdf, W; the choice of the light is in it
 } EmissionSample;
 
-inline Ray emission_ray(float3 origin, float3 direction)
+static inline Ray emission_ray(float3 origin, float3 direction)
 {
     Ray ray;
     ray.origin = pack(origin);
@@ -20,7 +20,7 @@ inline Ray emission_ray(float3 origin, float3 direction)
 
 // A ray along `direction` from outside the scene, its origin uniform on the disk that faces the whole
 // bounding sphere (of area pi R^2).
-inline Ray distant_ray(const SurfaceView* scene, float3 direction, float2 u)
+static inline Ray distant_ray(const SurfaceView* scene, float3 direction, float2 u)
 {
     const float radius = scene->globals->radius;
     const float2 d = sample_disk(u);
@@ -29,7 +29,7 @@ inline Ray distant_ray(const SurfaceView* scene, float3 direction, float2 u)
 }
 
 // u: light, direction and position. [Veach 1997, section 8.3.1]
-inline EmissionSample sample_emission(const SurfaceView* scene, float4 u, float2 u_direction)
+static inline EmissionSample sample_emission(const SurfaceView* scene, float4 u, float2 u_direction)
 {
     const Light light = scene->lights[choose_light(scene, u.z)];
     const float3 emission = unpack(light.emission) / light.probability;

@@ -5,7 +5,7 @@
 
 // Chooses one of the pixels whose filter covers a film coordinate, by |weight|. Returns its index along the
 // axis and writes sum of |weights| with the weight's sign: one splat instead of many, the same mean.
-inline int choose_filter_pixel(__global const PixelFilter* filter, float coordinate, float u, float* weight)
+static inline int choose_filter_pixel(__global const PixelFilter* filter, float coordinate, float u, float* weight)
 {
     const int first = (int)ceil(coordinate - filter->radius - 0.5f);
     const int last = (int)floor(coordinate + filter->radius - 0.5f);

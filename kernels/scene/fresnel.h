@@ -5,7 +5,7 @@
 
 // Dielectric. eta: index on the far side over index on the near side. cos_i > 0. Writes the cosine of the
 // refracted ray; returns 1 under total internal reflection.
-inline float fresnel_dielectric(float cos_i, float eta, float* cos_t)
+static inline float fresnel_dielectric(float cos_i, float eta, float* cos_t)
 {
     const float sin2_t = (1.0f - cos_i * cos_i) / (eta * eta);
     if (sin2_t >= 1.0f) {
@@ -19,7 +19,7 @@ inline float fresnel_dielectric(float cos_i, float eta, float* cos_t)
 }
 
 // Conductor of index eta + i k relative to the near side [Born and Wolf, section 14.2]. cos_i > 0.
-inline float3 fresnel_conductor(float cos_i, float3 eta, float3 k)
+static inline float3 fresnel_conductor(float cos_i, float3 eta, float3 k)
 {
     const float cos2 = cos_i * cos_i;
     const float sin2 = 1.0f - cos2;

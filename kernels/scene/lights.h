@@ -15,7 +15,7 @@ typedef struct LightSample {
 } LightSample;
 
 // Chooses a light by power with the alias table.
-inline uint choose_light(const SurfaceView* scene, float u)
+static inline uint choose_light(const SurfaceView* scene, float u)
 {
     const uint count = scene->globals->light_count;
     const float scaled = u * (float)count;
@@ -31,7 +31,7 @@ typedef struct LightPoint {
     float offset; // as in Surface
 } LightPoint;
 
-inline LightPoint sample_light_point(const SurfaceView* scene, const Light* light, float2 u)
+static inline LightPoint sample_light_point(const SurfaceView* scene, const Light* light, float2 u)
 {
     LightPoint point;
     if (light->type == LIGHT_TRIANGLE) {
@@ -62,14 +62,14 @@ inline LightPoint sample_light_point(const SurfaceView* scene, const Light* ligh
 }
 
 // Fall-off of a spot at `angle` from its axis: linear between beam width and cut-off, as in Mitsuba.
-inline float spot_falloff(const Light* light, float cos_angle)
+static inline float spot_falloff(const Light* light, float cos_angle)
 {
     const float angle = acos(clamp(cos_angle, -1.0f, 1.0f));
     if (angle >= light->cutoff_angle) return 0.0f;
     return angle <= light->beam_width ? 1.0f : (light->cutoff_angle - angle) / (light->cutoff_angle - light->beam_width);
 }
 
-inline Ray segment(float3 from, float3 to)
+static inline Ray segment(float3 from, float3 to)
 {
     Ray ray;
     ray.origin = pack(from);
@@ -81,17 +81,17 @@ inline Ray segment(float3 from, float3 to)
 
 // A sphere seen from outside subtends a cone: sampling it leaves no noise from the cosine at the light.
 // 1 - cos of the cone's half angle; 2 (the whole sphere of directions) when the point is not outside.
-inline float sphere_one_minus_cos(float radius, float distance_squared)
+static inline float sphere_one_minus_cos(float radius, float distance_squared)
 {
     const float sin2 = radius * radius / distance_squared;
-    if (sin2 >= 0.9999f) return 2.0f;
+    if (sin2 >= 1.0f) return 2.0f;
     return sin2 / (1.0f + sqrt(1.0f - sin2));
 }
 
 // Area to solid angle [1/m^2 -> 1/sr].
-inline float pdf_w_from_a(float pdf_a, float distance_squared, float cos_at_light) { return pdf_a * distance_squared / cos_at_light; }
+static inline float pdf_w_from_a(float pdf_a, float distance_squared, float cos_at_light) { return pdf_a * distance_squared / cos_at_light; }
 
-inline bool sample_area_light(const SurfaceView* scene, const Surface* surface, const Light* light, float2 u, LightSample* sample)
+static inline bool sample_area_light(const SurfaceView* scene, const Surface* surface, const Light* light, float2 u, LightSample* sample)
 {
     LightPoint point;
     if (light->type == LIGHT_SPHERE) {
@@ -130,7 +130,7 @@ inline bool sample_area_light(const SurfaceView* scene, const Surface* surface, 
 }
 
 // Samples the lights as seen from a surface. False: no light that way.
-inline bool sample_light(const SurfaceView* scene, const Surface* surface, float4 u, LightSample* sample)
+static inline bool sample_light(const SurfaceView* scene, const Surface* surface, float4 u, LightSample* sample)
 {
     const Light light = scene->lights[choose_light(scene, u.z)];
     switch (light.type) {
@@ -163,14 +163,14 @@ inline bool sample_light(const SurfaceView* scene, const Surface* surface, float
 }
 
 // The light that a hit primitive is, or NO_LIGHT.
-inline uint light_of_hit(const SurfaceView* scene, const Surface* surface)
+static inline uint light_of_hit(const SurfaceView* scene, const Surface* surface)
 {
     const Shape shape = scene->shapes[surface->shape];
     return shape.first_light == NO_LIGHT ? NO_LIGHT : shape.first_light + ((surface->primitive & ~ANALYTIC_BIT) - shape.first_primitive);
 }
 
 // Radiance that a hit surface emits back along the ray; zero from its back.
-inline float3 emitted_radiance(const SurfaceView* scene, const Surface* surface, uint light)
+static inline float3 emitted_radiance(const SurfaceView* scene, const Surface* surface, uint light)
 {
     const bool front = dot(surface->geometric_normal, surface->outgoing) > 0.0f;
     return light != NO_LIGHT && front ? unpack(scene->lights[light].emission) : (float3)(0.0f);
@@ -178,7 +178,7 @@ inline float3 emitted_radiance(const SurfaceView* scene, const Surface* surface,
 
 // Density (1/sr) with which sample_light, at the ray's origin, would have chosen the direction that hit
 // area light `light` here, `distance` away.
-inline float light_pdf_w(const SurfaceView* scene, const Surface* surface, uint light_index, float3 origin)
+static inline float light_pdf_w(const SurfaceView* scene, const Surface* surface, uint light_index, float3 origin)
 {
     const Light light = scene->lights[light_index];
     const float3 to_light = surface->position - origin;
@@ -194,7 +194,7 @@ inline float light_pdf_w(const SurfaceView* scene, const Surface* surface, uint 
 }
 
 // The same for the constant environment.
-inline float constant_light_pdf_w(const SurfaceView* scene)
+static inline float constant_light_pdf_w(const SurfaceView* scene)
 {
     return scene->lights[scene->globals->constant_light].probability * (0.25f * INV_PI_F);
 }

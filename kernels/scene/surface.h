@@ -18,9 +18,9 @@ typedef struct Surface {
 // with those, so that scenes in millimetres and in kilometres behave alike.
 #define OFFSET_PER_COORDINATE 4e-6f
 
-inline float max_abs(float3 v) { return max3(fabs(v)); }
+static inline float max_abs(float3 v) { return max3(fabs(v)); }
 
-inline void triangle_surface(const SurfaceView* scene, Hit hit, Surface* surface)
+static inline void triangle_surface(const SurfaceView* scene, Hit hit, Surface* surface)
 {
     const Triangle triangle = scene->triangles[hit.primitive];
     const float3 a = unpack(scene->positions[triangle.vertex[0]]);
@@ -41,7 +41,7 @@ inline void triangle_surface(const SurfaceView* scene, Hit hit, Surface* surface
     }
 }
 
-inline void analytic_surface(const SurfaceView* scene, Hit hit, float3 point, Surface* surface)
+static inline void analytic_surface(const SurfaceView* scene, Hit hit, float3 point, Surface* surface)
 {
     const AnalyticPrimitive primitive = scene->analytics[hit.primitive & ~ANALYTIC_BIT];
     const float3 center = unpack(primitive.center);
@@ -60,7 +60,7 @@ inline void analytic_surface(const SurfaceView* scene, Hit hit, float3 point, Su
     surface->shape = primitive.shape;
 }
 
-inline Surface surface_at(const SurfaceView* scene, Ray ray, Hit hit)
+static inline Surface surface_at(const SurfaceView* scene, Ray ray, Hit hit)
 {
     const float3 direction = unpack(ray.direction);
     Surface surface;
@@ -76,13 +76,13 @@ inline Surface surface_at(const SurfaceView* scene, Ray ray, Hit hit)
 }
 
 // Where a ray in `direction` starts, on the right side of the surface.
-inline float3 ray_origin(const Surface* surface, float3 direction)
+static inline float3 ray_origin(const Surface* surface, float3 direction)
 {
     const float side = dot(surface->geometric_normal, direction) < 0.0f ? -surface->offset : surface->offset;
     return surface->position + surface->geometric_normal * side;
 }
 
-inline Ray ray_from(const Surface* surface, float3 direction)
+static inline Ray ray_from(const Surface* surface, float3 direction)
 {
     Ray ray;
     ray.origin = pack(ray_origin(surface, direction));
@@ -93,13 +93,13 @@ inline Ray ray_from(const Surface* surface, float3 direction)
 }
 
 // A ray that no trace stage follows.
-inline Ray no_ray(void)
+static inline Ray no_ray(void)
 {
     Ray ray = {{0.0f, 0.0f, 0.0f}, 0.0f, {0.0f, 0.0f, 1.0f}, 0u};
     return ray;
 }
 
 // The normal on the side that `direction` points to.
-inline float3 facing(float3 normal, float3 direction) { return dot(normal, direction) < 0.0f ? -normal : normal; }
+static inline float3 facing(float3 normal, float3 direction) { return dot(normal, direction) < 0.0f ? -normal : normal; }
 
 #endif

@@ -4,7 +4,7 @@
 #include "shared/film.h"
 #include "shared/path.h"
 
-inline float3 albedo_of(const Scattering* scattering)
+static inline float3 albedo_of(const Scattering* scattering)
 {
     const float3 reflectance = unpack(scattering->bsdf.reflectance);
     switch (scattering->bsdf.type) {

@@ -6,19 +6,19 @@
 #include "scene/direct_light.h"
 
 // Weight of emission that BSDF sampling found, against next-event estimation.
-inline float emission_weight(const PathState* path, float light_pdf)
+static inline float emission_weight(const PathState* path, float light_pdf)
 {
     return path->pdf_w == PDF_DELTA ? 1.0f : balance_heuristic(path->pdf_w, light_pdf);
 }
 
-inline float3 environment_radiance(const SurfaceView* scene, const PathState* path)
+static inline float3 environment_radiance(const SurfaceView* scene, const PathState* path)
 {
     const uint light = scene->globals->constant_light;
     if (light == NO_LIGHT) return (float3)(0.0f);
     return unpack(scene->lights[light].emission) * emission_weight(path, constant_light_pdf_w(scene));
 }
 
-inline float3 surface_radiance(const SurfaceView* scene, const Surface* surface, const PathState* path, Ray ray)
+static inline float3 surface_radiance(const SurfaceView* scene, const Surface* surface, const PathState* path, Ray ray)
 {
     const uint light = light_of_hit(scene, surface);
     const float3 emitted = emitted_radiance(scene, surface, light);

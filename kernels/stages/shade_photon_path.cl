@@ -5,7 +5,7 @@
 #include "scene/continue_path.h"
 #include "shared/photon.h"
 
-inline Photon make_photon(const Surface* surface, const PathState* path)
+static inline Photon make_photon(const Surface* surface, const PathState* path)
 {
     Photon photon;
     photon.position = pack(surface->position);

@@ -7,7 +7,7 @@
 #include "scene/direct_light.h"
 #include "shared/photon.h"
 
-inline GatherQuery make_query(const Surface* surface, const Scattering* scattering, const PathState* path, PathRules rules, uint pixel, float radius)
+static inline GatherQuery make_query(const Surface* surface, const Scattering* scattering, const PathState* path, PathRules rules, uint pixel, float radius)
 {
     GatherQuery query;
     query.position = pack(surface->position);

@@ -7,7 +7,7 @@
 #include "shared/film.h"
 
 // The splat of a vertex, 0 when the camera does not see it; its shadow ray runs to the lens.
-inline Splat connect_vertex(const Camera* camera, __global const PixelFilter* filter, const Surface* surface, const Scattering* scattering, const PathState* path,
+static inline Splat connect_vertex(const Camera* camera, __global const PixelFilter* filter, const Surface* surface, const Scattering* scattering, const PathState* path,
                             float4 u, Ray* shadow_ray)
 {
     Splat splat = {{0.0f, 0.0f, 0.0f}, 0u};

@@ -4,6 +4,7 @@
 #include "device/profile.h"
 #include "methods/render_context.h"
 #include "scene/flat_scene.h"
+#include "shared/film.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -42,6 +43,16 @@ Parameters choose_parameters(const Scene& scene, const RenderSettings& settings,
     return Parameters(method.name, method.parameters, values);
 }
 
+// Throws SceneError when the film's accumulators alone cannot be allocated.
+void check_film(const Film& film, const DeviceInfo& device)
+{
+    const auto pixels = static_cast<std::uint64_t>(film.crop_width) * static_cast<std::uint64_t>(film.crop_height);
+    const std::uint64_t most = std::min(device.largest_buffer_bytes / sizeof(FilmPixel), device.memory_bytes / (sizeof(FilmPixel) + sizeof(FirstHitPixel)));
+    if (pixels <= most) return;
+    throw SceneError(film.where, fmt::format("a film of {}x{} pixels is too large for {}, which holds {} million; use a smaller film or crop (--size WxH)",
+                                             film.crop_width, film.crop_height, device.name, most / 1000000));
+}
+
 // Another film size keeps the field of view; a crop scales with it.
 Scene with_size(Scene scene, const RenderSettings& settings)
 {
@@ -58,11 +69,18 @@ Scene with_size(Scene scene, const RenderSettings& settings)
     return scene;
 }
 
+Scene sized_scene(Scene scene, const RenderSettings& settings, const DeviceInfo& device)
+{
+    scene = with_size(std::move(scene), settings);
+    check_film(scene.film, device);
+    return scene;
+}
+
 } // namespace
 
 struct RenderSession::State {
     State(Scene scene_in, Device& device_in, const RenderSettings& settings)
-        : scene(with_size(std::move(scene_in), settings)), device(device_in), info(choose_method(scene, settings)),
+        : scene(sized_scene(std::move(scene_in), settings, device_in.info())), device(device_in), info(choose_method(scene, settings)),
           parameters(choose_parameters(scene, settings, info)), seed(settings.seed.value_or(scene.integrator.seed)), device_scene(device, scene),
           camera(make_camera(scene.sensor, scene.film)), filter(make_pixel_filter(scene.film.filter)),
           film(device, scene.film.crop_width, scene.film.crop_height), context{device, device_scene, camera, filter, film, seed},

@@ -42,6 +42,14 @@ public:
 
     void clear() { count_.fill(0); }
 
+    // Fills the list from the host; grows it if need be.
+    void assign(const std::vector<Record>& records)
+    {
+        if (records.size() > capacity()) grow(records.size());
+        records_.upload(records);
+        count_.fill(static_cast<uint>(records.size()));
+    }
+
     // Appends deposits[i] for each flag i with PATH_DEPOSIT.
     void append(Compaction& compaction, const Buffer<Record>& deposits, const Buffer<uint>& flags, const Buffer<uint>& item_count, std::size_t items)
     {
