@@ -38,6 +38,13 @@ std::pair<int, int> parse_size(const std::string& text)
     return {width, height};
 }
 
+std::uint64_t parse_count(const std::string& option, const std::string& text)
+{
+    std::uint64_t value = 0;
+    if (!parse_whole(std::string_view(text), value)) throw UsageError(option + " needs a non-negative integer, got \"" + text + "\"");
+    return value;
+}
+
 double parse_finite(const std::string& option, const std::string& text)
 {
     double value = 0.0;

@@ -1,6 +1,7 @@
 // Values of command line options that have a form of their own. All throw UsageError.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -13,6 +14,9 @@ std::map<std::string, std::string> parse_assignments(const std::string& option, 
 
 // "1920x1080"; both at least 1.
 std::pair<int, int> parse_size(const std::string& text);
+
+// The whole text as a non-negative integer of 64 bits (CLI11 would wrap -5 around).
+std::uint64_t parse_count(const std::string& option, const std::string& text);
 
 // The whole text as a finite number.
 double parse_finite(const std::string& option, const std::string& text);

@@ -28,9 +28,9 @@ struct RenderOptions {
     std::string method;
     std::vector<std::string> parameters; // KEY=VALUE
     std::vector<std::string> defines; // NAME=VALUE
-    std::optional<std::uint64_t> iterations;
+    std::optional<std::string> iterations;
     std::optional<std::string> time;
-    std::optional<std::uint64_t> seed;
+    std::optional<std::string> seed;
     std::string size;
     std::string device;
     std::string exposure = "0";
@@ -73,11 +73,11 @@ RenderPlan make_plan(const RenderOptions& options)
     plan.load.defines = parse_assignments("-D", options.defines);
     plan.settings.method = options.method;
     plan.settings.parameters = parse_assignments("--param", options.parameters);
-    plan.settings.seed = options.seed;
+    if (options.seed) plan.settings.seed = parse_count("--seed", *options.seed);
     if (!options.size.empty()) plan.settings.size = parse_size(options.size);
     if (!options.method.empty() && !find_method(options.method)) throw UsageError("unknown method \"" + options.method + "\"; sundog methods lists them");
-    plan.iterations = options.iterations;
-    if (options.iterations == 0u) throw UsageError("--iterations must be at least 1");
+    if (options.iterations) plan.iterations = parse_count("--iterations", *options.iterations);
+    if (plan.iterations == 0u) throw UsageError("--iterations must be at least 1");
     if (options.time) plan.seconds = parse_finite("--time", *options.time);
     if (plan.seconds && *plan.seconds <= 0.0) throw UsageError("--time must be more than 0 seconds");
 

@@ -63,7 +63,7 @@ TEST_F(CliDevice, no_such_device)
 
 TEST_F(CliDevice, a_billion_photons_do_not_fit)
 {
-    expect_failure(run({"render", "scene.xml", "-o", "a.pfm", "-n", "1", "-m", "pppm", "-p", "photons=1000000000000"}), 4, {"memory"});
+    expect_failure(run({"render", "scene.xml", "-o", "a.pfm", "-n", "1", "-m", "pppm", "-p", "photons=1000000000"}), 4, {"memory"});
     EXPECT_THAT(files(), ::testing::ElementsAre("scene.xml"));
 }
 

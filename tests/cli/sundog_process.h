@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -84,6 +85,9 @@ private:
     ::_exit(127);
 }
 
+// A command that takes longer hangs, and is killed.
+constexpr std::chrono::seconds time_limit{120};
+
 // Arguments without the program's name.
 inline Outcome run_sundog(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                           const std::map<std::string, std::string>& environment = {}, Interruption interruption = {})
@@ -95,9 +99,17 @@ inline Outcome run_sundog(const std::vector<std::string>& arguments, const std::
     err.close(1);
 
     Outcome outcome;
+    const auto deadline = std::chrono::steady_clock::now() + time_limit;
     pollfd streams[2] = {{out.end(0), POLLIN, 0}, {err.end(0), POLLIN, 0}};
     while (streams[0].fd >= 0 || streams[1].fd >= 0) {
-        if (::poll(streams, 2, -1) < 0 && errno != EINTR) break;
+        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+        const int ready = left.count() > 0 ? ::poll(streams, 2, static_cast<int>(left.count())) : 0;
+        if (ready == 0) {
+            ADD_FAILURE() << "sundog hangs";
+            ::kill(child, SIGKILL);
+            break;
+        }
+        if (ready < 0) continue; // a signal
         if (streams[0].fd >= 0 && streams[0].revents != 0 && !out.read_some(outcome.out)) streams[0].fd = -1;
         if (streams[1].fd >= 0 && streams[1].revents != 0 && !err.read_some(outcome.err)) streams[1].fd = -1;
         if (interruption.when && interruption.when(outcome.err)) {

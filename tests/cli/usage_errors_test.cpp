@@ -32,7 +32,7 @@ const UsageCase cases[] = {
     {"two_scenes", {"render", "scene.xml", "other.xml"}, {"other.xml"}},
     {"option_without_value", {"render", "scene.xml", "-o"}, {"--output"}},
     {"iterations_zero", {"render", "scene.xml", "-n", "0"}, {"--iterations must be at least 1"}},
-    {"iterations_negative", {"render", "scene.xml", "--iterations=-5"}, {"--iterations", "-5"}},
+    {"iterations_negative", {"render", "scene.xml", "--iterations=-5"}, {"--iterations needs a non-negative integer, got \"-5\""}},
     {"iterations_no_number", {"render", "scene.xml", "-n", "many"}, {"--iterations", "many"}},
     {"iterations_fraction", {"render", "scene.xml", "-n", "1.5"}, {"--iterations", "1.5"}},
     {"time_zero", {"render", "scene.xml", "-t", "0"}, {"--time must be more than 0"}},
