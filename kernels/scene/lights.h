@@ -79,6 +79,13 @@ static inline Ray segment(float3 from, float3 to)
     return ray;
 }
 
+// From a surface to just before a point on a light. The end is off the light by the offsets of both: rounding
+// moves it by ulps of the larger coordinates.
+static inline Ray segment_to(const Surface* surface, float3 direction, const LightPoint* point)
+{
+    return segment(ray_origin(surface, direction), point->position + point->normal * (point->offset + surface->offset));
+}
+
 // A sphere seen from outside subtends a cone: sampling it leaves no noise from the cosine at the light.
 // 1 - cos of the cone's half angle; 2 (the whole sphere of directions) when the point is not outside.
 static inline float sphere_one_minus_cos(float radius, float distance_squared)
@@ -112,7 +119,7 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
             point.offset = OFFSET_PER_COORDINATE * (max_abs(unpack(primitive.center)) + primitive.radius);
             sample->direction = direction;
             sample->pdf_w = light->probability / (2.0f * PI_F * one_minus_cos);
-            sample->shadow_ray = segment(ray_origin(surface, direction), point.position + point.normal * point.offset);
+            sample->shadow_ray = segment_to(surface, direction, &point);
             sample->radiance = unpack(light->emission) / sample->pdf_w;
             return true;
         }
@@ -125,7 +132,7 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
     if (!(cos_at_light > 0.0f) || !(distance_squared > 0.0f)) return false;
     sample->pdf_w = pdf_w_from_a(light->probability / light->area, distance_squared, cos_at_light);
     sample->radiance = unpack(light->emission) / sample->pdf_w;
-    sample->shadow_ray = segment(ray_origin(surface, sample->direction), point.position + point.normal * point.offset);
+    sample->shadow_ray = segment_to(surface, sample->direction, &point);
     return true;
 }
 
