@@ -10,6 +10,11 @@
 #include "scene/intersect_analytic.h"
 #endif
 
+// GEOMETRY_ARGUMENTS as functions take them: without restrict, whose scopes
+// oclgrind does not know once a function is inlined.
+#define AS_POINTER_(type, name) , __global const type* name
+#define GEOMETRY_POINTERS __global const SceneGlobals* globals GEOMETRY_ARRAYS(AS_POINTER_)
+
 // Each level leaves at most all children but one behind.
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH * (BVH_WIDTH - 1) + 1)
 #define BVH_EMPTY_LEAF (~0)
@@ -149,7 +154,7 @@ static inline bool intersect_leaf_triangles(__global const BvhBlock** block, uin
 
 // The traversal behind both queries; `any` is a literal where it is called, so
 // that each gets its own code.
-static inline bool traverse_bvh(GEOMETRY_PARAMETERS, Ray ray, bool any, Hit* hit)
+static inline bool traverse_bvh(GEOMETRY_POINTERS, Ray ray, bool any, Hit* hit)
 {
     const Vec3 center = globals->center;
     const float reach = fabs(ray.origin.x - center.x) + fabs(ray.origin.y - center.y) + fabs(ray.origin.z - center.z) + globals->radius;
@@ -181,7 +186,7 @@ static inline bool traverse_bvh(GEOMETRY_PARAMETERS, Ray ray, bool any, Hit* hit
 }
 
 // The nearest point with 0 < t < ray.t_max into *hit, or a miss (NO_PRIMITIVE, t = t_max).
-static inline bool intersect_closest(GEOMETRY_PARAMETERS, Ray ray, Hit* hit)
+static inline bool intersect_closest(GEOMETRY_POINTERS, Ray ray, Hit* hit)
 {
     hit->u = 0.0f;
     hit->v = 0.0f;
@@ -192,7 +197,7 @@ static inline bool intersect_closest(GEOMETRY_PARAMETERS, Ray ray, Hit* hit)
 }
 
 // Whether there is any surface with 0 < t < ray.t_max.
-static inline bool intersect_any(GEOMETRY_PARAMETERS, Ray ray)
+static inline bool intersect_any(GEOMETRY_POINTERS, Ray ray)
 {
     Hit hit;
     hit.primitive = NO_PRIMITIVE;
