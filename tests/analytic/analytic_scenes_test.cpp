@@ -1,0 +1,133 @@
+// Every method on every analytic scene: the image's mean against the answer that the scene file derives.
+
+#include "support/render_replicates.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+using namespace sundog;
+using namespace sundog::test;
+
+namespace {
+
+constexpr int replicates = 10;
+constexpr int tests_in_file = 40; // bounds the family for the Bonferroni correction below
+
+// The number after "answer:" in the scene's comment.
+double answer_of(const std::string& scene)
+{
+    std::ifstream file(std::string(SUNDOG_SOURCE_DIR) + "/scenes/analytic/" + scene + ".xml");
+    std::stringstream text;
+    text << file.rdbuf();
+    const auto at = text.str().find("\nanswer:");
+    if (at == std::string::npos) throw std::runtime_error(scene + ".xml states no answer");
+    return std::stod(text.str().substr(at + 8));
+}
+
+struct Case {
+    std::string scene;
+    std::string method;
+    std::map<std::string, std::string> parameters;
+    double relative_bias = 0.0; // of density estimation, derived below
+};
+
+std::string name_of(const testing::TestParamInfo<Case>& info)
+{
+    std::string name = info.param.scene + "_" + info.param.method;
+    for (const auto& [key, value] : info.param.parameters)
+        if (key == "direct" || key == "kernel" || key == "sampler") name += "_" + value;
+    for (char& c : name)
+        if (c == '-') c = '_';
+    return name;
+}
+
+class AnalyticScenes : public testing::TestWithParam<Case> {};
+
+TEST_P(AnalyticScenes, MeanIsTheAnswer)
+{
+    const Case& c = GetParam();
+    RenderRequest request{c.method, 16, c.parameters};
+    request.parameters.emplace("sampler", "independent");
+    if (c.method != "path") request.parameters.emplace("photons", "8192");
+    const Estimate estimate = estimate_image_mean(load_test_scene("analytic/" + c.scene + ".xml"), request, replicates);
+    const double answer = answer_of(c.scene);
+    // Two-sided, 1% for the whole file. Float rounding of the answer and of sums: 2e-5.
+    const double quantile = student_quantile(replicates - 1, 0.005 / tests_in_file);
+    EXPECT_NEAR(estimate.mean, answer, quantile * estimate.standard_error + (c.relative_bias + 2e-5) * answer);
+    EXPECT_LT(estimate.standard_error, 0.01 * answer) << "too noisy to prove anything";
+}
+
+// Relative bias of a radius-r estimate where the irradiance has a Laplacian: 1/2 mu r^2 (Laplacian / value), with
+// mu = 1/4, 1/6, 1/8, 1/10 for the kernels in order of smoothness, and the first iteration's radius as a bound. Over
+// a point at height h the ratio is -6 / h^2 at the foot.
+double blur(double radius, double second_moment, double height)
+{
+    return 0.5 * second_moment * radius * radius * 6.0 / (height * height);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Unbiased, AnalyticScenes,
+    testing::Values(Case{"furnace", "path", {}}, Case{"furnace", "ptracer", {}}, Case{"sphere-furnace", "path", {}}, Case{"sphere-furnace", "ptracer", {}},
+                    Case{"parallel-light", "path", {}}, Case{"parallel-light", "ptracer", {{"photons", "65536"}}}, Case{"point-over-plane", "path", {}},
+                    Case{"point-over-plane", "ptracer", {{"photons", "65536"}}}, Case{"sphere-light", "path", {}},
+                    Case{"sphere-light", "ptracer", {{"photons", "65536"}}}, Case{"glass-in-white", "path", {}}, Case{"furnace", "path", {{"sampler", "sobol"}}},
+                    Case{"furnace", "ptracer", {{"sampler", "sobol"}}}),
+    name_of);
+
+// In the furnace and under parallel light the irradiance is the same everywhere: away from edges there is no bias.
+INSTANTIATE_TEST_SUITE_P(
+    PhotonMapping, AnalyticScenes,
+    testing::Values(Case{"furnace", "pppm", {{"radius", "0.1"}}}, Case{"furnace", "sppm", {{"radius", "0.1"}}},
+                    Case{"furnace", "pppm", {{"radius", "0.1"}, {"direct", "photons"}}}, Case{"furnace", "sppm", {{"radius", "0.1"}, {"direct", "photons"}}},
+                    // Photons on a sphere of radius 2, found within a ball of 0.1: the cap's area is that of the disk,
+                    // up to rounding; kernels that are not uniform see distances shorter by (r / 2R)^2 / 3 < 3e-4.
+                    Case{"sphere-furnace", "pppm", {{"radius", "0.1"}, {"direct", "photons"}}, 3e-4},
+                    Case{"sphere-furnace", "sppm", {{"radius", "0.1"}, {"direct", "photons"}}},
+                    Case{"parallel-light", "pppm", {{"radius", "0.2"}, {"direct", "photons"}}},
+                    Case{"parallel-light", "sppm", {{"radius", "0.2"}, {"direct", "photons"}}}, Case{"parallel-light", "pppm", {}},
+                    Case{"parallel-light", "sppm", {}}, Case{"point-over-plane", "pppm", {}}, Case{"point-over-plane", "sppm", {}},
+                    Case{"sphere-light", "pppm", {}}, Case{"sphere-light", "sppm", {}}, Case{"glass-in-white", "pppm", {}}, Case{"glass-in-white", "sppm", {}}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    BlurredLight, AnalyticScenes,
+    testing::Values(
+        Case{"point-over-plane", "pppm", {{"radius", "0.05"}, {"direct", "photons"}, {"kernel", "uniform"}, {"photons", "65536"}}, blur(0.05, 1.0 / 4, 1)},
+        Case{"point-over-plane", "pppm", {{"radius", "0.05"}, {"direct", "photons"}, {"kernel", "epanechnikov"}, {"photons", "65536"}}, blur(0.05, 1.0 / 6, 1)},
+        Case{"point-over-plane", "pppm", {{"radius", "0.05"}, {"direct", "photons"}, {"kernel", "biweight"}, {"photons", "65536"}}, blur(0.05, 1.0 / 8, 1)},
+        Case{"point-over-plane", "pppm", {{"radius", "0.05"}, {"direct", "photons"}, {"kernel", "triweight"}, {"photons", "65536"}}, blur(0.05, 1.0 / 10, 1)},
+        Case{"point-over-plane", "sppm", {{"radius", "0.05"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.05, 1.0 / 4, 1)},
+        Case{"sphere-light", "pppm", {{"radius", "0.08"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.08, 1.0 / 6, 2)},
+        Case{"sphere-light", "sppm", {{"radius", "0.08"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.08, 1.0 / 4, 2)}),
+    name_of);
+
+// A bound on the path's edges cuts the furnace's series: L_e (1 - rho^D) / (1 - rho).
+TEST(FurnaceSeries, DepthBoundCutsTheSeriesTheSameWayForEveryMethod)
+{
+    for (const char* method : {"path", "ptracer", "pppm", "sppm"}) {
+        for (int depth : {0, 1, 2, 3, 5}) {
+            RenderRequest request{method, 16, {{"max_depth", std::to_string(depth)}, {"sampler", "independent"}}};
+            if (request.method != "path") request.parameters["photons"] = "8192";
+            if (request.method == "pppm" || request.method == "sppm") request.parameters["radius"] = "0.1";
+            const Estimate estimate = estimate_image_mean(load_test_scene("analytic/furnace.xml"), request, replicates);
+            const double answer = 2.0 * (1.0 - std::pow(0.5, depth));
+            EXPECT_NEAR(estimate.mean, answer, student_quantile(replicates - 1, 0.005 / 20) * estimate.standard_error + 2e-5) << method << ", depth " << depth;
+        }
+    }
+}
+
+// The first-hit channels say what the camera sees.
+TEST(FirstHits, AlbedoNormalAndDepth)
+{
+    const Image image = render(load_test_scene("analytic/furnace.xml"), {"path", 4, {}}, 1);
+    ASSERT_EQ(image.channels.size(), 13u);
+    const int x = image.width / 2, y = image.height / 2;
+    EXPECT_NEAR(image.at(x, y, 6), 0.5, 1e-5);
+    EXPECT_NEAR(image.at(x, y, 11), 1.0, 1e-5); // the wall at z = -1 faces the camera
+    EXPECT_NEAR(image.at(x, y, 12), 1.0, 5e-3);
+}
+
+} // namespace
