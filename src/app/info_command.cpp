@@ -30,7 +30,11 @@ std::string counts_text(const std::map<std::string, std::size_t>& counts)
 
 std::string point_text(Vec3 p) { return fmt::format("({:g}, {:g}, {:g})", p.x, p.y, p.z); }
 
-std::string megabytes(std::uint64_t bytes) { return fmt::format("{:.2f} MB", static_cast<double>(bytes) * 1e-6); }
+std::string size_text(std::uint64_t bytes)
+{
+    const double kilobytes = static_cast<double>(bytes) * 1e-3;
+    return kilobytes < 1000 ? fmt::format("{:.1f} kB", kilobytes) : fmt::format("{:.1f} MB", kilobytes * 1e-3);
+}
 
 std::string integrator_text(const SceneSummary& summary)
 {
@@ -50,7 +54,7 @@ void print_text(const SceneSummary& summary, std::size_t warnings)
     line("bounds", summary.bounds.empty() ? "empty" : point_text(summary.bounds.lower) + " to " + point_text(summary.bounds.upper));
     line("image", fmt::format("{}x{} pixels, {} filter", summary.width, summary.height, summary.filter));
     line("integrator", integrator_text(summary));
-    line("memory", fmt::format("{} scene, {} film; the method's buffers come on top", megabytes(summary.scene_bytes), megabytes(summary.film_bytes)));
+    line("memory", fmt::format("{} scene, {} film; the method's buffers come on top", size_text(summary.scene_bytes), size_text(summary.film_bytes)));
     line("warnings", std::to_string(warnings));
 }
 

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <functional>
+#include <string>
 #include <utility>
 
 namespace sundog
@@ -73,8 +74,10 @@ LogLevel log_level()
 void log_error(std::string_view message)
 {
     const auto end = message.find('\n');
-    print(spdlog::level::err, "error: ", message.substr(0, end));
-    if (end != std::string_view::npos) log_debug(message.substr(end + 1));
+    const bool cut = end != std::string_view::npos && end + 1 < message.size();
+    const bool hidden = cut && log_level() != LogLevel::debug;
+    print(spdlog::level::err, "error: ", std::string(message.substr(0, end)) + (hidden ? " (-v shows more)" : ""));
+    if (cut) log_debug(message.substr(end + 1));
 }
 
 void log_warning(std::string_view message) { print(spdlog::level::warn, "warning: ", message); }

@@ -78,12 +78,13 @@ TEST_F(CliRender, the_same_seed_gives_the_same_pixels)
 
 TEST_F(CliRender, statistics_hold_what_the_contract_names)
 {
-    expect_done(run({"render", "scene.xml", "-m", "sppm", "-n", "2", "-s", "18446744073709551615", "-p", "photons=1000", "-o", "a.pfm", "--stats", "s.json"}));
+    expect_done(run({"render", "scene.xml", "-m", "sppm", "-n", "2", "-s", "18446744073709551615", "-p", "photons=1000", "-p", "direct=photons", "-o", "a.pfm",
+                     "--stats", "s.json"}));
     const auto stats = nlohmann::json::parse(read("s.json"));
     EXPECT_EQ(stats["method"], "sppm");
     EXPECT_EQ(stats["parameters"]["photons"], 1000);
     EXPECT_TRUE(stats["parameters"]["alpha"].is_number());
-    EXPECT_TRUE(stats["parameters"]["kernel"].is_string());
+    EXPECT_EQ(stats["parameters"]["direct"], "photons");
     EXPECT_EQ(stats["seed"], 18446744073709551615u);
     EXPECT_FALSE(stats["device"].get<std::string>().empty());
     EXPECT_EQ(stats["iterations"], 2);

@@ -146,7 +146,7 @@ TEST(ProgressReport, a_message_takes_the_bar_off_first)
     testing::internal::CaptureStderr();
     log_error("first line\nbuild log");
     set_before_log_line({});
-    EXPECT_EQ(testing::internal::GetCapturedStderr(), "sundog: error: first line\n");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "sundog: error: first line (-v shows more)\n");
     EXPECT_THAT(out.str(), ::testing::EndsWith("\r\x1b[2K"));
 }
 
