@@ -18,7 +18,7 @@ SHARED_SIZE(FilmPixel, 48);
 typedef struct FirstHitPixel {
     Vec3 albedo;
     Vec3 normal;
-    float depth; // distance along the ray; 0 for the background
+    float depth; // distance from the camera; 0 for the background
 } FirstHitPixel;
 SHARED_SIZE(FirstHitPixel, 28);
 

@@ -14,8 +14,8 @@ static inline float3 albedo_of(const Scattering* scattering)
     }
 }
 
-__kernel void record_first_hits(SURFACE_PARAMETERS, __global const Ray* restrict rays, __global const Hit* restrict hits, uint count, float inverse_iterations,
-                                __global FirstHitPixel* restrict first_hits)
+__kernel void record_first_hits(SURFACE_PARAMETERS, __global const Ray* restrict rays, __global const Hit* restrict hits, Vec3 camera_position, uint count,
+                                float inverse_iterations, __global FirstHitPixel* restrict first_hits)
 {
     const uint path = get_global_id(0);
     if (path >= count) return;
@@ -29,7 +29,7 @@ __kernel void record_first_hits(SURFACE_PARAMETERS, __global const Ray* restrict
         const Scattering scattering = scattering_at(&scene, &surface);
         albedo = albedo_of(&scattering);
         normal = facing(surface.shading_normal, surface.outgoing);
-        depth = hit.t;
+        depth = length(surface.position - unpack(camera_position));
     }
     // Running means: x += (sample - x) / n.
     FirstHitPixel pixel = first_hits[path];

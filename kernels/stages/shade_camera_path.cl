@@ -40,6 +40,7 @@ __kernel void shade_camera_path(SURFACE_PARAMETERS, SamplerKey key, PathRules ru
     const Hit hit = hits[index];
     flags[item] = PATH_ENDED;
     shadow_rays[index].t_max = 0.0f;
+    if (path.depth > rules.max_depth) return;
 
     if (hit.primitive == NO_PRIMITIVE) {
         radiance[index] = pack(unpack(radiance[index]) + throughput * environment_radiance(&scene, &path));

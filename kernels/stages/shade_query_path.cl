@@ -34,6 +34,7 @@ __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rul
     flags[item] = PATH_ENDED;
     shadow_rays[index].t_max = 0.0f;
     queries[index].radius = 0.0f;
+    if (path.depth > rules.max_depth) return;
 
     if (hit.primitive == NO_PRIMITIVE) {
         const uint light = scene.globals->constant_light;

@@ -22,7 +22,7 @@ void CameraPaths::start(const DeviceScene& scene, PathPool& pool, SamplerKey key
 void CameraPaths::record_first_hits(const DeviceScene& scene, PathPool& pool, std::uint64_t iteration, Buffer<FirstHitPixel>& first_hits)
 {
     const float inverse_iterations = 1.0f / static_cast<float>(iteration + 1);
-    record_first_hits_(count_, scene.surfaces(), pool.rays, pool.hits, static_cast<uint>(count_), inverse_iterations, first_hits);
+    record_first_hits_(count_, scene.surfaces(), pool.rays, pool.hits, camera_.position, static_cast<uint>(count_), inverse_iterations, first_hits);
 }
 
 } // namespace sundog

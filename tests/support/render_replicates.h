@@ -15,8 +15,9 @@ namespace sundog::test {
 
 inline Device& shared_device()
 {
-    static Device device(select_device(""));
-    return device;
+    // Never destroyed: at exit the OpenCL driver's own statics may be gone first.
+    static Device* const device = new Device(select_device(""));
+    return *device;
 }
 
 inline Scene load_test_scene(const std::string& path, const std::map<std::string, std::string>& defines = {})
