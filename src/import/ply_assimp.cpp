@@ -1,5 +1,6 @@
 #include "import/ply.h"
 
+#include "import/ply_check.h"
 #include "import/text_file.h"
 
 #include <assimp/Importer.hpp>
@@ -35,8 +36,8 @@ void append(const aiMesh& source, TriangleMesh& mesh)
 
 TriangleMesh load_ply(const std::filesystem::path& file, const SourceLocation& wanted_at)
 {
-    // Read here, so that a missing file is told from a malformed one.
     const std::string content = read_text_file(file, wanted_at);
+    check_ply(file, content);
     Assimp::Importer importer;
     const aiScene* scene = importer.ReadFileFromMemory(content.data(), content.size(), aiProcess_Triangulate, "ply");
     if (!scene) {

@@ -14,6 +14,7 @@ namespace
 
 // More than any scene needs, and few enough that nested includes cannot exhaust the memory.
 constexpr int max_include_depth = 16;
+constexpr int max_includes = 10'000;
 constexpr int max_element_depth = 64;
 constexpr std::size_t max_elements = 4'000'000;
 
@@ -166,6 +167,8 @@ private:
         refuse_cycle(file, element.where);
         if (open_files_.size() >= max_include_depth)
             throw SceneError(element.where, "includes nest deeper than " + std::to_string(max_include_depth));
+        if (++include_count_ > max_includes)
+            throw SceneError(element.where, "more than " + std::to_string(max_includes) + " files are included");
         const XmlFile xml(file, element.where);
         const pugi::xml_node root = xml.root();
         open_files_.push_back(file);
@@ -213,6 +216,7 @@ private:
     std::set<std::string> known_; // parameters that some <default> or $name mentions
     std::vector<std::filesystem::path> open_files_;
     std::size_t element_count_ = 0;
+    int include_count_ = 0;
     XmlScene scene_;
 };
 

@@ -3,6 +3,8 @@
 #include "import/text_file.h"
 
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 
 namespace sundog
 {
@@ -41,12 +43,20 @@ XmlFile::XmlFile(const std::filesystem::path& file, const SourceLocation& wanted
 
     const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
     if (!result) {
-        const bool at_end = result.offset + 1 >= static_cast<std::ptrdiff_t>(text.size());
+        const bool at_end = text.find('>', static_cast<std::size_t>(result.offset)) == std::string::npos;
         const int line = result.status == pugi::status_no_document_element ? 0 : line_of(result.offset);
         throw SceneError({name_, line}, explain(result, at_end));
     }
     for (auto node = root().next_sibling(); node; node = node.next_sibling())
         if (node.type() == pugi::node_element) throw SceneError(where(node), "a second root element <" + std::string(node.name()) + ">");
+}
+
+SourceLocation XmlFile::where(pugi::xml_node node) const
+{
+    // Text starts where its blanks end.
+    const std::string_view value = node.type() == pugi::node_element ? "" : node.value();
+    const std::size_t blanks = std::min(value.find_first_not_of(" \t\r\n"), value.size());
+    return {name_, line_of(node.offset_debug() + static_cast<std::ptrdiff_t>(blanks))};
 }
 
 int XmlFile::line_of(std::ptrdiff_t offset) const

@@ -19,7 +19,7 @@ public:
     XmlFile(const std::filesystem::path& file, const SourceLocation& wanted_at);
 
     pugi::xml_node root() const { return document_.document_element(); }
-    SourceLocation where(pugi::xml_node node) const { return {name_, line_of(node.offset_debug())}; }
+    SourceLocation where(pugi::xml_node node) const;
 
 private:
     int line_of(std::ptrdiff_t offset) const;
