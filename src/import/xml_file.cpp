@@ -21,9 +21,9 @@ std::string explain(const pugi::xml_parse_result& result, bool at_end)
     case pugi::status_end_element_mismatch:
         return at_end ? "the file ends before all elements are closed: is it truncated?" : "an end tag does not match its start tag";
     case pugi::status_bad_attribute:
-        return "malformed attribute: write name=\"value\"";
+        return at_end ? "an element ends early: is the file truncated?" : "malformed attribute: write name=\"value\"";
     case pugi::status_bad_comment:
-        return "a comment is not closed with -->, or contains --";
+        return "a comment is not closed with -->";
     default:
         break;
     }
