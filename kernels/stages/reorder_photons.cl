@@ -1,19 +1,33 @@
-// Lays photons out in cell order, as structure of arrays. Reads photons and their order; writes the streams.
-// One work-item a photon.
+// Lays photons out in cell order, as structure of arrays. Reads photons and their order; writes the streams, up
+// to seven places beyond the last photon. One work-item eight photons: whole records come in, whole vectors go
+// out, which is what memory likes on both sides.
 #include "shared/photon.h"
+
+#define COLUMN_(i) (float8)(p0.s##i, p1.s##i, p2.s##i, p3.s##i, p4.s##i, p5.s##i, p6.s##i, p7.s##i)
 
 __kernel void reorder_photons(__global const Photon* restrict photons, __global const uint* restrict order, __global const uint* restrict photon_count, uint stride,
                               __global float* restrict streams)
 {
-    const uint i = get_global_id(0);
-    if (i >= *photon_count) return;
-    const Photon photon = photons[order[i]];
-    streams[PHOTON_X * stride + i] = photon.position.x;
-    streams[PHOTON_Y * stride + i] = photon.position.y;
-    streams[PHOTON_Z * stride + i] = photon.position.z;
-    streams[PHOTON_RED * stride + i] = photon.flux.x;
-    streams[PHOTON_GREEN * stride + i] = photon.flux.y;
-    streams[PHOTON_BLUE * stride + i] = photon.flux.z;
-    streams[PHOTON_DIRECTION * stride + i] = as_float(photon.direction);
-    streams[PHOTON_NORMAL_DEPTH * stride + i] = as_float(photon.normal_depth);
+    const uint first = get_global_id(0) * 8u;
+    const uint count = *photon_count;
+    if (first >= count) return;
+    const uint last = count - 1u; // lanes beyond repeat it
+    __global const float* records = (__global const float*)photons;
+    const float8 p0 = vload8(order[first], records);
+    const float8 p1 = vload8(order[min(first + 1u, last)], records);
+    const float8 p2 = vload8(order[min(first + 2u, last)], records);
+    const float8 p3 = vload8(order[min(first + 3u, last)], records);
+    const float8 p4 = vload8(order[min(first + 4u, last)], records);
+    const float8 p5 = vload8(order[min(first + 5u, last)], records);
+    const float8 p6 = vload8(order[min(first + 6u, last)], records);
+    const float8 p7 = vload8(order[min(first + 7u, last)], records);
+    // The order of a Photon's members: position, direction, flux, normal and depth.
+    vstore8(COLUMN_(0), 0, streams + (size_t)PHOTON_X * stride + first);
+    vstore8(COLUMN_(1), 0, streams + (size_t)PHOTON_Y * stride + first);
+    vstore8(COLUMN_(2), 0, streams + (size_t)PHOTON_Z * stride + first);
+    vstore8(COLUMN_(3), 0, streams + (size_t)PHOTON_DIRECTION * stride + first);
+    vstore8(COLUMN_(4), 0, streams + (size_t)PHOTON_RED * stride + first);
+    vstore8(COLUMN_(5), 0, streams + (size_t)PHOTON_GREEN * stride + first);
+    vstore8(COLUMN_(6), 0, streams + (size_t)PHOTON_BLUE * stride + first);
+    vstore8(COLUMN_(7), 0, streams + (size_t)PHOTON_NORMAL_DEPTH * stride + first);
 }

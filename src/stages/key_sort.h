@@ -9,13 +9,14 @@ namespace sundog {
 
 class KeySort {
 public:
-    // Keys lie below key_range. digit_bits 0: chosen for the device.
-    KeySort(Device& device, std::size_t capacity, uint key_range, uint digit_bits = 0);
+    // Keys lie below max_key_range. digit_bits 0: chosen for the device.
+    KeySort(Device& device, std::size_t capacity, uint max_key_range, uint digit_bits = 0);
 
     Buffer<uint> keys; // to be filled before sort()
 
-    // Sorts the first *count of `items` or fewer keys: order()[i] is the index of the i-th smallest.
-    void sort(const Buffer<uint>& count, std::size_t items);
+    // Sorts the first *count of `items` or fewer keys, all below key_range: order()[i] is the index of the i-th
+    // smallest. A smaller range than the largest makes shorter histograms.
+    void sort(const Buffer<uint>& count, std::size_t items, uint key_range);
 
     const Buffer<uint>& order() const { return order_; }
 
@@ -26,14 +27,14 @@ public:
     std::size_t capacity() const { return capacity_; }
 
 private:
-    void place_digits(const Buffer<uint>& count, uint shift);
+    void place_digits(const Buffer<uint>& count, uint shift, uint digits);
 
     std::size_t capacity_;
-    uint key_range_;
-    uint digit_bits_ = 0;
-    uint passes_ = 1;
+    uint digit_bits_ = 0; // at most
+    bool keeps_keys_ = false; // more than one digit may be needed
+    bool one_pass_ = true;    // of the last sort
     uint chunks_ = 1;
-    uint runs_ = 1;
+    uint max_runs_ = 1;
     Kernel count_keys_, sum_digits_, scan_counts_, place_digits_, scatter_first_, scatter_next_, find_key_ends_;
     Buffer<uint> histogram_, run_sums_, run_total_;
     Buffer<uint> order_, next_order_, next_keys_;

@@ -12,6 +12,14 @@ constexpr std::size_t cells_per_photon = 1;
 constexpr std::size_t min_table_size = std::size_t(1) << 12;
 constexpr std::size_t max_table_size = std::size_t(1) << 22;
 
+// Streams start nine cache lines apart modulo a page: those of one photon would else compete for the same sets
+// of the cache when all are written at once.
+std::size_t stream_stride(std::size_t photons)
+{
+    constexpr std::size_t page = 1024, stagger = 9 * 16; // floats
+    return (photons + PHOTON_PADDING + page - 1) / page * page + stagger;
+}
+
 } // namespace
 
 PhotonGrid make_photon_grid(const Bounds& bounds, float largest_radius, uint table_size, uint stride)
@@ -28,7 +36,7 @@ PhotonGrid make_photon_grid(const Bounds& bounds, float largest_radius, uint tab
     grid.cells_z = cells_along(extent.z);
     const double cells = static_cast<double>(grid.cells_x) * grid.cells_y * grid.cells_z;
     grid.hashed = cells > static_cast<double>(table_size) ? 1 : 0;
-    grid.cell_count = table_size;
+    grid.cell_count = grid.hashed ? table_size : static_cast<uint>(cells);
     grid.stride = stride;
     return grid;
 }
@@ -46,17 +54,16 @@ void PhotonMap::reserve(std::size_t photons)
     streams_ = {};
     table_size_ = static_cast<uint>(std::clamp(std::bit_ceil(photons * cells_per_photon), min_table_size, max_table_size));
     sort_ = std::make_unique<KeySort>(*device_, photons, table_size_);
-    streams_ = Buffer<float>(*device_, PHOTON_STREAMS * (photons + PHOTON_PADDING), "photon streams");
+    streams_ = Buffer<float>(*device_, PHOTON_STREAMS * stream_stride(photons), "photon streams");
 }
 
 void PhotonMap::build(const RecordList<Photon>& photons, std::size_t count, float largest_radius)
 {
     reserve(photons.capacity());
-    const std::size_t stride = photons.capacity() + PHOTON_PADDING;
-    grid_ = make_photon_grid(bounds_, largest_radius, table_size_, static_cast<uint>(stride));
+    grid_ = make_photon_grid(bounds_, largest_radius, table_size_, static_cast<uint>(stream_stride(photons.capacity())));
     photon_cell_keys_(count, grid_, photons.records(), photons.count(), sort_->keys);
-    sort_->sort(photons.count(), count);
-    reorder_photons_(count, photons.records(), sort_->order(), photons.count(), grid_.stride, streams_);
+    sort_->sort(photons.count(), count, grid_.cell_count);
+    reorder_photons_((count + 7) / 8, photons.records(), sort_->order(), photons.count(), grid_.stride, streams_);
 }
 
 } // namespace sundog

@@ -42,7 +42,7 @@ void SplatTracer::trace(const DeviceScene& scene, CameraPaths& camera, PathPool&
     }
     reserve_sort();
     splat_pixel_keys_(stored, splats_.records(), splats_.count(), sort_->keys);
-    sort_->sort(splats_.count(), stored);
+    sort_->sort(splats_.count(), stored, static_cast<uint>(std::max<std::size_t>(pixels_, 2)));
     add_splats_(pixels_, splats_.records(), sort_->order(), sort_->ends(), sort_->ends_offset(), static_cast<uint>(pixels_),
                 1.0f / static_cast<float>(path_count_), camera.radiance);
 }

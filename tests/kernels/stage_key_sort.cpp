@@ -28,18 +28,18 @@ protected:
         return info;
     }
 
-    void expect_sorted(KeySort& sort, const std::vector<uint>& keys, const char* what)
+    void expect_sorted(KeySort& sort, const std::vector<uint>& keys, const char* what, uint range = GetParam().key_range)
     {
         SCOPED_TRACE(testing::Message() << what << ", " << keys.size() << " keys");
         sort.keys.upload(keys);
-        sort.sort(Buffer<uint>(device_, std::vector{static_cast<uint>(keys.size())}, "count"), keys.size());
+        sort.sort(Buffer<uint>(device_, std::vector{static_cast<uint>(keys.size())}, "count"), keys.size(), range);
 
         std::vector<uint> order(keys.size());
         std::iota(order.begin(), order.end(), 0u);
         std::stable_sort(order.begin(), order.end(), [&](uint a, uint b) { return keys[a] < keys[b]; });
         ASSERT_EQ(sort.order().download(0, keys.size()), order);
 
-        std::vector<uint> ends(GetParam().key_range, 0);
+        std::vector<uint> ends(range, 0);
         for (const uint key : keys) ++ends.at(key);
         std::partial_sum(ends.begin(), ends.end(), ends.begin());
         ASSERT_EQ(sort.ends().download(sort.ends_offset(), ends.size()), ends);
@@ -64,6 +64,9 @@ TEST_P(KeySortStage, EqualsStableSort)
         expect_sorted(sort, keys, "crowded");
         if (HasFatalFailure()) return;
     }
+    std::vector<uint> low_keys(5000);
+    for (uint& key : low_keys) key = static_cast<uint>(random() % 13);
+    expect_sorted(sort, low_keys, "a smaller range", 13);
     expect_sorted(sort, std::vector<uint>(1000, range - 1), "all the largest");
     expect_sorted(sort, std::vector<uint>(1000, 0u), "all the smallest");
 }
