@@ -18,7 +18,7 @@ static inline float8 max8(float8 a, float8 b)
 // Bit i is set where lane i of a comparison's result is true (all ones).
 static inline int mask8(int8 condition)
 {
-#if defined(__x86_64__) && defined(__AVX__) && !defined(SUNDOG_PORTABLE_MASKS)
+#if defined(__x86_64__) && defined(__AVX__) && !defined(SUNDOG_PORTABLE_SIMD)
     return __builtin_ia32_movmskps256(as_float8(condition));
 #else
     const int8 bits = condition & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
@@ -32,6 +32,18 @@ static inline int mask8(int8 condition)
 static inline int first_lane(int mask)
 {
     return (int)popcount((uint)(~mask & (mask - 1)));
+}
+
+// Asks for 256 bytes that will be read soon. Nothing depends on it.
+static inline void prefetch256(__global const void* address)
+{
+#if defined(__x86_64__) && !defined(SUNDOG_PORTABLE_SIMD)
+    const size_t first = (size_t)address;
+    __builtin_prefetch((const void*)first);
+    __builtin_prefetch((const void*)(first + 64));
+    __builtin_prefetch((const void*)(first + 128));
+    __builtin_prefetch((const void*)(first + 192));
+#endif
 }
 
 static inline float lowest8(float8 a)
