@@ -2,6 +2,7 @@
 
 #include "render/bench_photon_map.h"
 #include "render/bench_rays.h"
+#include "render/bench_renders.h"
 
 #include <fmt/format.h>
 
@@ -40,6 +41,35 @@ std::vector<BenchFigure> measure_photon_map(Device& device)
             {"photon map", "largest difference from scalar C++", "", f.largest_difference, 1e-4, true}};
 }
 
+std::vector<BenchFigure> measure_renders(Device& device)
+{
+    std::vector<BenchFigure> figures;
+    // One light subpath a pixel, paths of at most ten edges.
+    for (const char* method : {"sppm", "pppm", "ptracer", "path"}) {
+        Device own(device.info()); // for a peak of its own
+        const RenderFigures f = bench_render(own, cornell_glass_scene(512, 512), method, 262144, 10, 20);
+        const bool is_sppm = std::string_view(method) == "sppm";
+        const std::string what = fmt::format("{}, cornell-glass 512x512", method);
+        figures.push_back({"render", what, "iterations/s", f.iterations_per_second, is_sppm ? on_cpu(device, 5.0) : std::nullopt});
+        figures.push_back({"render", what + ", time without a kernel", "%", 100.0 * f.host_share, is_sppm ? std::optional(5.0) : std::nullopt, true});
+        figures.push_back({"render", what + ", peak device memory", "MB", 1e-6 * f.peak_bytes, is_sppm ? std::optional(400.0) : std::nullopt, true});
+        figures.push_back({"render", what + ", ready after", "s", f.setup_seconds, std::nullopt});
+    }
+    Device own(device.info());
+    const RenderFigures f = bench_render(own, cornell_glass_scene(1920, 1080), "sppm", 2'000'000, 10, 2);
+    figures.push_back({"render", "sppm, 1920x1080, 2 million light subpaths", "iterations/s", f.iterations_per_second, std::nullopt});
+    figures.push_back({"render", "sppm, 1920x1080, 2 million light subpaths, peak device memory", "MB", 1e-6 * f.peak_bytes, 1500.0, true});
+    return figures;
+}
+
+std::vector<BenchFigure> measure_kernel_builds(Device& device)
+{
+    Device own(device.info());
+    const RenderFigures f = bench_render(own, cornell_glass_scene(16, 16), "sppm", 256, 10, 1);
+    return {{"kernels", "sppm ready, cache as it is", "s", f.kernel_seconds, std::nullopt},
+            {"kernels", "first iteration done after", "s", f.setup_seconds, std::nullopt}};
+}
+
 } // namespace
 
 const std::vector<BenchSection>& bench_sections()
@@ -47,6 +77,8 @@ const std::vector<BenchSection>& bench_sections()
     static const std::vector<BenchSection> sections = {
         {"traversal", "closest and any hit against Embree's single-ray functions", measure_traversal},
         {"photon-map", "building the grid and gathering, against plain C++", measure_photon_map},
+        {"render", "whole iterations on the Cornell box with glass", measure_renders},
+        {"kernels", "building kernels; set SUNDOG_CACHE_DIR and POCL_CACHE_DIR to empty folders for a cold start", measure_kernel_builds},
     };
     return sections;
 }

@@ -1,48 +1,16 @@
 #include "render/bench_rays.h"
 
 #include "render/bench_ray_sets.h"
+#include "render/bench_timing.h"
 #include "stages/geometry_buffers.h"
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
-#include <functional>
 #include <numeric>
-#include <thread>
 
 namespace sundog
 {
 namespace
 {
-
-double wall_seconds()
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-// Of all threads of this process, divided by the hardware threads.
-double cpu_seconds()
-{
-    timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec)) / std::thread::hardware_concurrency();
-}
-
-double seconds_of(bool by_cpu, const std::function<void()>& work)
-{
-    const auto clock = by_cpu ? cpu_seconds : wall_seconds;
-    const double start = clock();
-    work();
-    return clock() - start;
-}
-
-double median(std::vector<double> values)
-{
-    std::sort(values.begin(), values.end());
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 // A scene on both sides.
 class RayBench
@@ -116,21 +84,9 @@ private:
             device_side(ray_buffer, active, count);
             device_.finish();
         };
-        run_device(); // compiles, and touches memory
-        embree_side();
-        std::vector<double> times, embree_times, ratios;
-        double before = seconds_of(by_cpu, embree_side);
-        for (int round = 0; round < settings_.rounds; round++) {
-            const double time = seconds_of(by_cpu, run_device);
-            const double after = seconds_of(by_cpu, embree_side);
-            times.push_back(time);
-            embree_times.push_back(after);
-            ratios.push_back(0.5 * (before + after) / time);
-            before = after;
-        }
+        const PairedTimes times = time_in_turn(by_cpu, settings_.rounds, run_device, embree_side);
         const double millions = 1e-6 * static_cast<double>(rays.size());
-        return {scene_.name,    name, scene_.mesh.triangles.size(), millions / median(times), millions / median(embree_times),
-                median(ratios), 0};
+        return {scene_.name, name, scene_.mesh.triangles.size(), millions / times.seconds, millions / times.other_seconds, times.ratio, 0};
     }
 
     Device& device_;

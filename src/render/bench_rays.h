@@ -30,7 +30,7 @@ struct RayBenchSettings {
 };
 
 // On a CPU device both sides count CPU seconds divided by the hardware threads, so that other processes do
-// not spoil the figures; on others wall seconds. Takes about 15 s with the large scene.
+// not spoil the figures; on others wall seconds. Takes under a minute with the large scene.
 std::vector<RayFigure> bench_rays(Device& device, const RayBenchSettings& settings = {});
 
 } // namespace sundog
