@@ -5,8 +5,10 @@ namespace sundog
 
 GeometryBuffers upload_geometry(Device& device, const Bvh& bvh, std::span<const AnalyticPrimitive> analytics, SceneGlobals globals)
 {
-    globals.center = bvh.bounds.empty() ? Vec3{0, 0, 0} : bvh.bounds.center();
-    globals.radius = bvh.bounds.empty() ? 0.0f : bvh.bounds.radius();
+    if (globals.radius == 0.0f && !bvh.bounds.empty()) {
+        globals.center = bvh.bounds.center();
+        globals.radius = bvh.bounds.radius();
+    }
     globals.bvh_root = bvh.root;
     GeometryBuffers buffers;
     buffers.globals = Buffer<SceneGlobals>(device, std::span<const SceneGlobals>(&globals, 1), "scene globals");

@@ -16,7 +16,8 @@ struct GeometryBuffers {
 #undef GEOMETRY_BUFFER
 };
 
-// globals.center, radius and bvh_root follow from the hierarchy; the other members are kept as given.
+// globals.bvh_root follows from the hierarchy, and so do center and radius where the radius given is 0; the other
+// members are kept.
 GeometryBuffers upload_geometry(Device& device, const Bvh& bvh, std::span<const AnalyticPrimitive> analytics, SceneGlobals globals = {});
 
 // Specialises trace_closest and trace_any for what the geometry contains.
