@@ -33,12 +33,9 @@ static inline uint path_of_pixel(uint2 pixel, uint width, uint height)
 // Filter importance sampling [Ernst et al. 2006]: pixels need no splats.
 static inline float2 sample_filter(__global const PixelFilter* filter, float u)
 {
-    uint low = 0u, high = FILTER_BINS;
-    while (high - low > 1u) {
-        const uint middle = (low + high) / 2u;
-        if (filter->cdf[middle] <= u) low = middle;
-        else high = middle;
-    }
+    // Largest bin whose cdf does not exceed u, by halving without branches.
+    uint low = 0u;
+    for (uint step = FILTER_BINS / 2u; step > 0u; step /= 2u) low += filter->cdf[low + step] <= u ? step : 0u;
     const float start = filter->cdf[low];
     const float width = filter->cdf[low + 1u] - start;
     const float fraction = width > 0.0f ? (u - start) / width : 0.5f;
