@@ -131,7 +131,9 @@ TEST_F(FilmStage, FirstHitsAreMeans)
             const std::size_t pixel = film.pixel_of_path(path);
             ASSERT_NEAR(x, static_cast<double>(pixel % 12) + 0.5, 0.50001);
             ASSERT_NEAR(y, static_cast<double>(pixel / 12) + 0.5, 0.50001);
-            if (hits[path].primitive != NO_PRIMITIVE) depths[path] += hits[path].t / static_cast<double>(iterations);
+            if (hits[path].primitive == NO_PRIMITIVE) continue;
+            const Vec3d at = Vec3d(rays[path].origin) + d * hits[path].t;
+            depths[path] += length(at - Vec3d(sensor.position)) / static_cast<double>(iterations); // from the camera, not from its near plane
         }
     }
     for (const Vec3& radiance : paths.radiance.download()) EXPECT_EQ(radiance.x, 0.0f);
