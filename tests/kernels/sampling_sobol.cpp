@@ -39,6 +39,53 @@ private:
         })");
 };
 
+uint reversed_bits(uint x)
+{
+    uint result = 0;
+    for (int bit = 0; bit < 32; ++bit) result |= ((x >> bit) & 1u) << (31 - bit);
+    return result;
+}
+
+// Direction numbers by the recurrence of [Bratley and Fox 1988] from a primitive polynomial of degree s with inner
+// coefficients a, and the first s odd numbers m, as [Joe and Kuo 2008] list them.
+std::array<uint, 32> direction_numbers(int s, uint a, const std::vector<uint>& m)
+{
+    std::array<uint, 32> v{};
+    for (int i = 0; i < 32; ++i) {
+        if (s == 0) {
+            v[i] = 1u << (31 - i); // van der Corput
+        } else if (i < s) {
+            v[i] = m[i] << (31 - i);
+        } else {
+            v[i] = v[i - s] ^ (v[i - s] >> s);
+            for (int k = 1; k < s; ++k) v[i] ^= ((a >> (s - 1 - k)) & 1u) * v[i - k];
+        }
+    }
+    return v;
+}
+
+TEST_F(SobolPoints, TableHoldsTheDirectionNumbers)
+{
+    const Kernel kernel = test_kernel(R"(
+        #include "math/sobol.h"
+        __kernel void test(uint count, __global uint* output)
+        {
+            uint i = get_global_id(0);
+            if (i < count) output[i] = SOBOL_NIBBLES[i];
+        })");
+    const auto output = allocate<uint>(8 * 16 * 4);
+    kernel(output.size(), static_cast<uint>(output.size()), output);
+    const auto table = output.download();
+    const std::array<uint, 32> dimensions[4] = {direction_numbers(0, 0, {}), direction_numbers(1, 0, {1}), direction_numbers(2, 1, {1, 3}), direction_numbers(3, 1, {1, 3, 1})};
+    for (uint nibble = 0; nibble < 8; ++nibble)
+        for (uint value = 0; value < 16; ++value)
+            for (uint dimension = 0; dimension < 4; ++dimension) {
+                uint sum = 0;
+                for (uint bit = 0; bit < 4; ++bit) sum ^= ((value >> bit) & 1u) * dimensions[dimension][31 - (4 * nibble + bit)];
+                ASSERT_EQ(table[4 * (16 * nibble + value) + dimension], reversed_bits(sum)) << "nibble " << nibble << ", value " << value << ", dimension " << dimension;
+            }
+}
+
 // A base-2 sequence: every run of 2^k points that starts at a multiple of 2^k meets each of the 2^k intervals once.
 TEST_F(SobolPoints, FillEachDyadicIntervalOnce)
 {
