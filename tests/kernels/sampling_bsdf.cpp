@@ -42,8 +42,8 @@ protected:
         const auto shapes = upload(std::vector<Shape>{{0, NO_LIGHT, 0, 0}});
         const auto output = allocate<float>(std::size_t(10) * count);
         const auto directions = upload(given.empty() ? std::vector<Vec3>(1) : given);
-        kernel_(count, upload(bsdfs), shapes, to_float(view.outgoing), to_float(view.geometric_normal), to_float(view.shading_normal), carries, count,
-                uint(given.empty() ? 0 : 1), directions, output);
+        kernel_(count, upload(bsdfs), shapes, to_float(view.outgoing), to_float(view.geometric_normal), to_float(view.shading_normal),
+                carries, count, uint(given.empty() ? 0 : 1), directions, output);
         const auto values = output.download();
         std::vector<Sample> samples(count);
         for (std::size_t i = 0; i < count; ++i) {
@@ -195,7 +195,8 @@ testing::AssertionResult frequency_is(double happened, double probability, doubl
 {
     const std::vector<double> observed = {happened, count - happened}, expected = {probability * count, (1.0 - probability) * count};
     if (std::min(expected[0], expected[1]) < 5.0) { // too rare to test but for its absence
-        return std::abs(happened - expected[0]) < 20.0 ? testing::AssertionSuccess() : testing::AssertionFailure() << happened << " instead of " << expected[0];
+        return std::abs(happened - expected[0]) < 20.0 ? testing::AssertionSuccess()
+                                                       : testing::AssertionFailure() << happened << " instead of " << expected[0];
     }
     return follows(observed, expected, tests_in_file);
 }
@@ -315,7 +316,8 @@ TEST_F(BsdfSampling, InterpolatedNormalsDoNotLeak)
         }
     }
     EXPECT_GT(absorbed, 100) << "the case did not arise";
-    EXPECT_EQ(evaluate({diffuse({0.5f, 0.5f, 0.5f})}, view, {normalized({0.8, 0.0, -0.1})})[0].evaluated, 0.0) << "light from below the face";
+    EXPECT_EQ(evaluate({diffuse({0.5f, 0.5f, 0.5f})}, view, {normalized({0.8, 0.0, -0.1})})[0].evaluated, 0.0)
+        << "light from below the face";
 }
 
 } // namespace

@@ -100,8 +100,8 @@ std::vector<FilmPoint> film_points(std::size_t count)
     const auto part = [](double x) { return static_cast<float>(x - std::floor(x)); };
     for (std::size_t i = 0; i < count; ++i) {
         const double k = static_cast<double>(i) + 0.5;
-        points.push_back({320.0f * part(k * 0.8566748838545029), 200.0f * part(k * 0.733891856627126), part(k * 0.6287067210378087), part(k * 0.5385972572236101),
-                          0.05f + 50.0f * part(k * 0.46140175)});
+        points.push_back({320.0f * part(k * 0.8566748838545029), 200.0f * part(k * 0.733891856627126), part(k * 0.6287067210378087),
+                          part(k * 0.5385972572236101), 0.05f + 50.0f * part(k * 0.46140175)});
     }
     return points;
 }
@@ -132,7 +132,8 @@ TEST_F(CameraRays, ConnectionsReturnToWhereTheRayCameFrom)
 TEST_F(CameraRays, ClipPlanesBoundTheView)
 {
     const Sensor sensor = tilted_sensor();
-    const auto ends = run(make_camera(sensor, wide_film()), {{0, 0, 0, 0, 1e-3f}, {0, 0, 0, 0, -1e-3f}, {0, 0, 0, 0, -5.0f}, {0, 0, 0, 0, 1e4f}});
+    const auto ends =
+        run(make_camera(sensor, wide_film()), {{0, 0, 0, 0, 1e-3f}, {0, 0, 0, 0, -1e-3f}, {0, 0, 0, 0, -5.0f}, {0, 0, 0, 0, 1e4f}});
     EXPECT_TRUE(ends[0].visible);
     EXPECT_FALSE(ends[1].visible);
     EXPECT_FALSE(ends[2].visible);
@@ -145,7 +146,8 @@ TEST_F(CameraRays, ClipPlanesBoundTheView)
 TEST_F(CameraRays, FieldOfViewAndOrientation)
 {
     const Sensor sensor = tilted_sensor();
-    const auto corners = run(make_camera(sensor, wide_film()), {{160, 100, 0, 0, 1}, {0, 100, 0, 0, 1}, {320, 100, 0, 0, 1}, {160, 0, 0, 0, 1}});
+    const auto corners =
+        run(make_camera(sensor, wide_film()), {{160, 100, 0, 0, 1}, {0, 100, 0, 0, 1}, {320, 100, 0, 0, 1}, {160, 0, 0, 0, 1}});
     const auto local = [&](std::size_t i) {
         const Vec3d d = corners[i].ray.direction;
         return Vec3d(dot(d, Vec3d(sensor.axis_x)), dot(d, Vec3d(sensor.axis_y)), dot(d, Vec3d(sensor.axis_z)));

@@ -77,8 +77,8 @@ TEST_F(Estimators, KernelsIntegrateToOneOverTheDisk)
 }
 
 const std::vector<Weighted> some_photons = {
-    {0.0f, {1, 2, 3}, true},      {0.25f, {4, 5, 6}, true},      {0.5f, {100, 100, 100}, false}, {0.99f, {7, 8, 9}, true},
-    {0.1f, {0.5f, 0, 0}, true},   {0.3f, {0, 0.25f, 0}, true},   {2.0f, {NAN, NAN, NAN}, false}, {0.7f, {1, 1, 1}, true},
+    {0.0f, {1, 2, 3}, true},      {0.25f, {4, 5, 6}, true},        {0.5f, {100, 100, 100}, false}, {0.99f, {7, 8, 9}, true},
+    {0.1f, {0.5f, 0, 0}, true},   {0.3f, {0, 0.25f, 0}, true},     {2.0f, {NAN, NAN, NAN}, false}, {0.7f, {1, 1, 1}, true},
     {0.6f, {2, 0.125f, 4}, true}, {0.9f, {INFINITY, 0, 0}, false},
 };
 

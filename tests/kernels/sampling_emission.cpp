@@ -54,7 +54,8 @@ protected:
             ASSERT_GE(d.z, -1e-5);
             ASSERT_NEAR(length(d), 1.0, 1e-5);
             const double sin2 = std::min(d.x * d.x + d.y * d.y, 0.999999); // uniform in [0, 1]
-            counts.at(static_cast<std::size_t>(sin2 * 10) * 16 + static_cast<std::size_t>((std::atan2(d.y, d.x) / (2 * pi) + 0.5) * 15.9999)) += 1.0;
+            counts.at(static_cast<std::size_t>(sin2 * 10) * 16 +
+                      static_cast<std::size_t>((std::atan2(d.y, d.x) / (2 * pi) + 0.5) * 15.9999)) += 1.0;
         }
         EXPECT_TRUE(is_uniform(counts, tests_in_file)) << "directions";
     }
@@ -82,7 +83,8 @@ TEST_F(LightEmission, MeshEmitsUniformlyFromItsArea)
     for (const Ray& ray : emission.rays) {
         ASSERT_NEAR(ray.origin.z, 1.0f, 1e-4f);
         ASSERT_LT(ray.origin.z, 1.0f) << "not in front of the light";
-        counts.at(static_cast<std::size_t>(std::min(ray.origin.x * 10.0f, 19.9f)) * 10 + static_cast<std::size_t>(std::min(ray.origin.y * 10.0f, 9.9f))) += 1.0;
+        counts.at(static_cast<std::size_t>(std::min(ray.origin.x * 10.0f, 19.9f)) * 10 +
+                  static_cast<std::size_t>(std::min(ray.origin.y * 10.0f, 9.9f))) += 1.0;
     }
     EXPECT_TRUE(is_uniform(counts, tests_in_file));
     expect_cosine_lobe(emission, [](Vec3d) { return Vec3d(0, 0, -1); });
@@ -168,7 +170,8 @@ TEST_F(LightEmission, DistantLightsCoverTheScene)
             const Vec3d d = frame.to_local(Vec3d(ray.origin) - center) / radius;
             ASSERT_NEAR(d.z, -1.0, 1e-5);
             const double r2 = std::min(d.x * d.x + d.y * d.y, 0.999999);
-            counts.at(static_cast<std::size_t>(r2 * 10) * 16 + static_cast<std::size_t>((std::atan2(d.y, d.x) / (2 * pi) + 0.5) * 15.9999)) += 1.0;
+            counts.at(static_cast<std::size_t>(r2 * 10) * 16 +
+                      static_cast<std::size_t>((std::atan2(d.y, d.x) / (2 * pi) + 0.5) * 15.9999)) += 1.0;
             directions.push_back(ray.direction);
         }
         EXPECT_TRUE(is_uniform(counts, tests_in_file)) << "origins";

@@ -59,7 +59,8 @@ protected:
         std::vector<uint> active(samples);
         std::iota(active.begin(), active.end(), 0u);
         const auto occluded = allocate<uint>(samples);
-        Kernel(device_, "trace_any", "Trace", scene.trace_options())(samples, scene.geometry(), rays, upload(active), upload(std::vector{samples}), occluded);
+        Kernel(device_, "trace_any", "Trace", scene.trace_options())(samples, scene.geometry(), rays, upload(active),
+                                                                     upload(std::vector{samples}), occluded);
         return {directions.download(), pdfs.download(), radiance.download(), occluded.download()};
     }
 
@@ -73,7 +74,8 @@ protected:
         for (const Vec3d& d : directions) rays.push_back({position, INFINITY, to_float(d), 0});
         const auto device_rays = upload(rays);
         const auto hits = allocate<Hit>(count);
-        Kernel(device_, "trace_closest", "Trace", scene.trace_options())(count, scene.geometry(), device_rays, hits, upload(active), upload(std::vector{count}));
+        Kernel(device_, "trace_closest", "Trace", scene.trace_options())(count, scene.geometry(), device_rays, hits, upload(active),
+                                                                         upload(std::vector{count}));
         const Kernel kernel = test_kernel(R"(
             #include "scene/lights.h"
             __kernel void test(SURFACE_PARAMETERS, uint count, __global const Ray* rays, __global const Hit* hits, __global float* pdfs)
@@ -136,13 +138,13 @@ private:
         std::vector<double> expected = grid.expected(densities(scene, c.position, grid.midpoints(fine)), fine, samples);
         std::vector<double> counts(grid.bins(), 0.0);
         const double probability = flatten_scene(c.scene).lights[0].probability;
-        for (std::size_t i = 0; i < samples; ++i)
-            counts[drawn.pdfs[i] > 0.0f ? grid.bin(drawn.directions[i]) : grid.bins() - 1] += 1.0;
+        for (std::size_t i = 0; i < samples; ++i) counts[drawn.pdfs[i] > 0.0f ? grid.bin(drawn.directions[i]) : grid.bins() - 1] += 1.0;
         const double inside = std::accumulate(expected.begin(), expected.end(), 0.0);
         // Light 0 is in the cone, and all of it seen from its front: the density integrates to the chance of its choice.
         EXPECT_NEAR(inside / samples, probability, 5e-3 * probability);
         expected.back() = samples * (1.0 - probability);
-        for (std::size_t bin = 0; bin + 1 < expected.size(); ++bin) expected[bin] *= samples * probability / inside; // the quadrature's error at edges
+        for (std::size_t bin = 0; bin + 1 < expected.size(); ++bin)
+            expected[bin] *= samples * probability / inside; // the quadrature's error at edges
         EXPECT_TRUE(follows(counts, expected, tests_in_file));
     }
 };
@@ -177,7 +179,8 @@ TEST_F(Lights, SphereFromNearFarAndInside)
         const double sine = 0.5 / distance;
         // The whole sphere lies above the horizon: E = pi L (R / d)^2 cos.
         const double cap = sine * sine / (1.0 + std::sqrt(1.0 - sine * sine));
-        check({name, sphere_scene(false), to_float(Vec3d(Vec3{0.1f, 0.2f, 0.3f}) - towards * distance), up, towards, 1.05 * cap, 3.0 * pi * sine * sine * towards.z});
+        check({name, sphere_scene(false), to_float(Vec3d(Vec3{0.1f, 0.2f, 0.3f}) - towards * distance), up, towards, 1.05 * cap,
+               3.0 * pi * sine * sine * towards.z});
     };
     outside("far", 40.0, {0.3, 0.2, 0.9});
     outside("near", 0.51, {0.01, 0.02, 1.0});
@@ -199,7 +202,8 @@ TEST_F(Lights, SmallLightsNearTheOriginReachFarSurfaces)
         const DeviceScene device_scene(device_, *scene);
         for (const double distance : {10.0, 300.0, 5000.0}) {
             const LightSamples drawn = sample(device_scene, to_float(from * distance), to_float(-from));
-            EXPECT_EQ(std::accumulate(drawn.occluded.begin(), drawn.occluded.end(), 0u), 0u) << "blocked by the light itself, " << distance << " away";
+            EXPECT_EQ(std::accumulate(drawn.occluded.begin(), drawn.occluded.end(), 0u), 0u)
+                << "blocked by the light itself, " << distance << " away";
         }
     }
 }

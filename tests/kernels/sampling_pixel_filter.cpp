@@ -14,10 +14,8 @@ constexpr int tests_in_file = 5;
 constexpr uint samples = 400'000;
 
 const std::vector<ReconstructionFilter> filters = {
-    {FilterKind::box, 0.5f, 0.5f, 0.0f, 0.0f},
-    {FilterKind::tent, 1.0f, 0.5f, 0.0f, 0.0f},
-    {FilterKind::gaussian, 2.0f, 0.5f, 0.0f, 0.0f},
-    {FilterKind::mitchell, 2.0f, 0.5f, 1.0f / 3.0f, 1.0f / 3.0f},
+    {FilterKind::box, 0.5f, 0.5f, 0.0f, 0.0f},      {FilterKind::tent, 1.0f, 0.5f, 0.0f, 0.0f},
+    {FilterKind::gaussian, 2.0f, 0.5f, 0.0f, 0.0f}, {FilterKind::mitchell, 2.0f, 0.5f, 1.0f / 3.0f, 1.0f / 3.0f},
     {FilterKind::gaussian, 1.3f, 0.4f, 0.0f, 0.0f}, // not a whole number of pixels
 };
 
@@ -45,12 +43,14 @@ TEST_F(PixelFilters, OffsetsFollowTheFilter)
         const double bin_width = 2.0 * filter.radius / FILTER_BINS;
         for (const float density : filter.density) absolute += std::abs(density) * bin_width;
         std::vector<double> counts(4 * FILTER_BINS, 0.0), expected(4 * FILTER_BINS, 0.0);
-        for (std::size_t bin = 0; bin < expected.size(); ++bin) expected[bin] = std::abs(filter.density[bin / 4]) * bin_width / absolute / 4.0 * samples;
+        for (std::size_t bin = 0; bin < expected.size(); ++bin)
+            expected[bin] = std::abs(filter.density[bin / 4]) * bin_width / absolute / 4.0 * samples;
         double weights = 0.0, weights_squared = 0.0;
         for (std::size_t i = 0; i < drawn.size(); i += 2) {
             const double offset = drawn[i], weight = drawn[i + 1];
             ASSERT_LE(std::abs(offset), filter.radius);
-            const auto bin = std::min(counts.size() - 1, static_cast<std::size_t>((offset / filter.radius + 1.0) * 0.5 * static_cast<double>(counts.size())));
+            const auto bin = std::min(counts.size() - 1,
+                                      static_cast<std::size_t>((offset / filter.radius + 1.0) * 0.5 * static_cast<double>(counts.size())));
             counts[bin] += 1.0;
             weights += weight;
             weights_squared += weight * weight;
@@ -92,7 +92,8 @@ TEST_F(PixelFilters, ChosenPixelsCarryTheFiltersWeights)
         for (uint coordinate = 0; coordinate < coordinates; ++coordinate) {
             const double film = 3.0 + (coordinate + 0.5) / coordinates;
             std::map<int, double> means;
-            for (uint step = 0; step < steps; ++step) means[chosen[coordinate * steps + step]] += static_cast<double>(weight[coordinate * steps + step]) / steps;
+            for (uint step = 0; step < steps; ++step)
+                means[chosen[coordinate * steps + step]] += static_cast<double>(weight[coordinate * steps + step]) / steps;
             for (int pixel = -1; pixel <= 8; ++pixel) {
                 const double offset = film - pixel - 0.5;
                 const double bin = (offset / filter.radius + 1.0) * 0.5 * FILTER_BINS;

@@ -49,7 +49,8 @@ TEST_F(RandomNumbers, PhiloxGivesItsKnownAnswers)
     philox(known_answers.size(), upload(input), static_cast<uint>(known_answers.size()), output);
     const std::vector<uint> results = output.download();
     for (std::size_t i = 0; i < known_answers.size(); ++i)
-        for (std::size_t word = 0; word < 4; ++word) EXPECT_EQ(results[4 * i + word], known_answers[i].result[word]) << "case " << i << ", word " << word;
+        for (std::size_t word = 0; word < 4; ++word)
+            EXPECT_EQ(results[4 * i + word], known_answers[i].result[word]) << "case " << i << ", word " << word;
 }
 
 // Work-item i draws `blocks` blocks of four numbers for path i of the iteration.
@@ -75,8 +76,8 @@ protected:
     }
 
     // Counts of the pairs (a_i, b_i) on a 32 x 32 grid.
-    static std::vector<double> joint_counts(const std::vector<float>& a, std::size_t first_a, const std::vector<float>& b, std::size_t first_b,
-                                            std::size_t stride = 4)
+    static std::vector<double> joint_counts(const std::vector<float>& a, std::size_t first_a, const std::vector<float>& b,
+                                            std::size_t first_b, std::size_t stride = 4)
     {
         constexpr std::size_t cells = 32;
         std::vector<double> counts(cells * cells, 0.0);
@@ -123,7 +124,8 @@ TEST_F(IndependentSampler, PathsIterationsStreamsDepthsAndSeedsAreIndependent)
     EXPECT_TRUE(is_uniform(joint_counts(numbers, 0, draw(key, STREAM_CAMERA), 0), tests_in_file)) << "streams";
     EXPECT_TRUE(is_uniform(joint_counts(numbers, 0, draw(key, STREAM_LIGHT, 1), 0), tests_in_file)) << "vertices";
     EXPECT_TRUE(is_uniform(joint_counts(numbers, 0, draw(sampler_key(6, 7), STREAM_LIGHT), 0), tests_in_file)) << "seeds";
-    EXPECT_TRUE(is_uniform(joint_counts(numbers, 0, draw(sampler_key(5ull + (1ull << 32), 7), STREAM_LIGHT), 0), tests_in_file)) << "upper half of the seed";
+    EXPECT_TRUE(is_uniform(joint_counts(numbers, 0, draw(sampler_key(5ull + (1ull << 32), 7), STREAM_LIGHT), 0), tests_in_file))
+        << "upper half of the seed";
 }
 
 // Path i of iteration k is number k * paths + i of one sequence, also beyond 2^32.

@@ -76,13 +76,15 @@ TEST_F(SobolPoints, TableHoldsTheDirectionNumbers)
     const auto output = allocate<uint>(8 * 16 * 4);
     kernel(output.size(), static_cast<uint>(output.size()), output);
     const auto table = output.download();
-    const std::array<uint, 32> dimensions[4] = {direction_numbers(0, 0, {}), direction_numbers(1, 0, {1}), direction_numbers(2, 1, {1, 3}), direction_numbers(3, 1, {1, 3, 1})};
+    const std::array<uint, 32> dimensions[4] = {direction_numbers(0, 0, {}), direction_numbers(1, 0, {1}), direction_numbers(2, 1, {1, 3}),
+                                                direction_numbers(3, 1, {1, 3, 1})};
     for (uint nibble = 0; nibble < 8; ++nibble)
         for (uint value = 0; value < 16; ++value)
             for (uint dimension = 0; dimension < 4; ++dimension) {
                 uint sum = 0;
                 for (uint bit = 0; bit < 4; ++bit) sum ^= ((value >> bit) & 1u) * dimensions[dimension][31 - (4 * nibble + bit)];
-                ASSERT_EQ(table[4 * (16 * nibble + value) + dimension], reversed_bits(sum)) << "nibble " << nibble << ", value " << value << ", dimension " << dimension;
+                ASSERT_EQ(table[4 * (16 * nibble + value) + dimension], reversed_bits(sum))
+                    << "nibble " << nibble << ", value " << value << ", dimension " << dimension;
             }
 }
 
@@ -96,8 +98,10 @@ TEST_F(SobolPoints, FillEachDyadicIntervalOnce)
             for (uint start = 0; start + count <= std::min(most, 4 * count); start += count)
                 for (std::size_t dimension = 0; dimension < 4; ++dimension) {
                     std::vector<int> met(count, 0);
-                    for (uint i = start; i < start + count; ++i) ++met.at(static_cast<std::size_t>(sequence[i][dimension] * static_cast<float>(count)));
-                    ASSERT_EQ(met, std::vector<int>(count, 1)) << "seed " << seed << ", points " << start << " to " << start + count << ", dimension " << dimension;
+                    for (uint i = start; i < start + count; ++i)
+                        ++met.at(static_cast<std::size_t>(sequence[i][dimension] * static_cast<float>(count)));
+                    ASSERT_EQ(met, std::vector<int>(count, 1))
+                        << "seed " << seed << ", points " << start << " to " << start + count << ", dimension " << dimension;
                 }
     }
 }
@@ -190,7 +194,8 @@ TEST_F(SobolPoints, IntegrateSmoothFunctionsFasterThanIndependentPoints)
         log_error.push_back(0.5 * std::log(squares));
     }
     const double n = static_cast<double>(log_n.size());
-    const double mean_x = std::accumulate(log_n.begin(), log_n.end(), 0.0) / n, mean_y = std::accumulate(log_error.begin(), log_error.end(), 0.0) / n;
+    const double mean_x = std::accumulate(log_n.begin(), log_n.end(), 0.0) / n,
+                 mean_y = std::accumulate(log_error.begin(), log_error.end(), 0.0) / n;
     double xy = 0.0, xx = 0.0;
     for (std::size_t i = 0; i < log_n.size(); ++i) {
         xy += (log_n[i] - mean_x) * (log_error[i] - mean_y);
@@ -244,7 +249,8 @@ TEST_F(SobolSampler, BlocksVerticesAndSeedsAreUncorrelated)
     const double four_sigma = 4.0 / std::sqrt(double(paths));
     const auto numbers = draw(sampler_key(1, 0), STREAM_LIGHT, paths);
     for (std::size_t a = 0; a < 4; ++a)
-        for (std::size_t b = 4; b < 8; ++b) EXPECT_LT(std::abs(correlation(numbers, a, numbers, b)), four_sigma) << "dimensions " << a << " and " << b;
+        for (std::size_t b = 4; b < 8; ++b)
+            EXPECT_LT(std::abs(correlation(numbers, a, numbers, b)), four_sigma) << "dimensions " << a << " and " << b;
     EXPECT_LT(std::abs(correlation(numbers, 0, draw(sampler_key(1, 0), STREAM_LIGHT, paths, 1), 0)), four_sigma) << "vertices";
     EXPECT_LT(std::abs(correlation(numbers, 0, draw(sampler_key(2, 0), STREAM_LIGHT, paths), 0)), four_sigma) << "seeds";
     EXPECT_LT(std::abs(correlation(numbers, 0, draw(sampler_key(1, 0), STREAM_CAMERA, paths), 0)), four_sigma) << "streams";

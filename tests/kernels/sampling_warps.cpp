@@ -48,7 +48,8 @@ TEST_F(Warps, DiskIsUniform)
     for (const Vec3 p : draw(disk)) {
         const double r2 = double(p.x) * p.x + double(p.y) * p.y;
         ASSERT_LE(r2, 1.0 + 1e-6);
-        const int ring = std::min(15, static_cast<int>(r2 * 16)), sector = std::min(31, static_cast<int>((std::atan2(p.y, p.x) / (2 * pi) + 0.5) * 32));
+        const int ring = std::min(15, static_cast<int>(r2 * 16)),
+                  sector = std::min(31, static_cast<int>((std::atan2(p.y, p.x) / (2 * pi) + 0.5) * 32));
         counts.at(static_cast<std::size_t>(ring * 32 + sector)) += 1.0;
     }
     EXPECT_TRUE(is_uniform(counts, tests_in_file));
@@ -120,9 +121,11 @@ TEST_F(Warps, PackedDirectionsKeepTheirDirection)
     const auto p = packed.download(), n = normals.download();
     double worst_direction = 0.0, worst_normal = 0.0;
     for (std::size_t i = 0; i < samples; ++i) {
-        worst_direction = std::max(worst_direction, angle(v[i], unfold(((p[i] & 0xffff) + 0.5) / 32768.0 - 1.0, ((p[i] >> 16) + 0.5) / 32768.0 - 1.0)));
+        worst_direction =
+            std::max(worst_direction, angle(v[i], unfold(((p[i] & 0xffff) + 0.5) / 32768.0 - 1.0, ((p[i] >> 16) + 0.5) / 32768.0 - 1.0)));
         // As gather_photons reads it.
-        worst_normal = std::max(worst_normal, angle(v[i], unfold(((n[i] & 0xfff) + 0.5) / 2048.0 - 1.0, (((n[i] >> 12) & 0xfff) + 0.5) / 2048.0 - 1.0)));
+        worst_normal = std::max(worst_normal,
+                                angle(v[i], unfold(((n[i] & 0xfff) + 0.5) / 2048.0 - 1.0, (((n[i] >> 12) & 0xfff) + 0.5) / 2048.0 - 1.0)));
         ASSERT_LT(n[i], 1u << 24);
     }
     EXPECT_LT(worst_direction, 1e-4);

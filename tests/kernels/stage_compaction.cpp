@@ -48,7 +48,8 @@ TEST_F(CompactionStage, KeepsFlaggedEntriesInOrder)
             device_list.upload(list);
             device_flags.fill(PATH_ALIVE); // beyond the list: not to be counted
             device_flags.upload(flags);
-            compaction.keep(device_list, device_flags, upload(std::vector{static_cast<uint>(count)}), bound, PATH_ALIVE, shorter, shorter_count);
+            compaction.keep(device_list, device_flags, upload(std::vector{static_cast<uint>(count)}), bound, PATH_ALIVE, shorter,
+                            shorter_count);
             ASSERT_EQ(shorter_count.read(0), expected.size());
             ASSERT_EQ(shorter.download(0, expected.size()), expected);
         }
@@ -64,7 +65,8 @@ TEST_F(CompactionStage, NothingKeptAndAllKept)
     const auto count = upload(std::vector<uint>{600});
     compaction.keep(upload(list), upload(std::vector<uint>(600, PATH_DEPOSIT)), count, 600, PATH_ALIVE, shorter, shorter_count);
     EXPECT_EQ(shorter_count.read(0), 0u);
-    compaction.keep(upload(list), upload(std::vector<uint>(600, PATH_ALIVE | PATH_DEPOSIT)), count, 600, PATH_ALIVE, shorter, shorter_count);
+    compaction.keep(upload(list), upload(std::vector<uint>(600, PATH_ALIVE | PATH_DEPOSIT)), count, 600, PATH_ALIVE, shorter,
+                    shorter_count);
     EXPECT_EQ(shorter_count.read(0), 600u);
     EXPECT_EQ(shorter.download(), list);
 }

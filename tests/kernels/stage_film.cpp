@@ -21,7 +21,8 @@ TEST_F(FilmStage, AccumulatesWithoutDrift)
 {
     constexpr int width = 8, height = 2, iterations = 100'000, variants = 5;
     // By variant: rounding in every digit, small after large, alternating magnitudes.
-    const float values[variants][3] = {{0.1f, 1e4f, 1e-6f}, {1.0f / 3.0f, 1e-3f, 3e5f}, {0.7f, 0.1f, 1e-6f}, {1e-7f, 2.5e-4f, 7e-7f}, {0.3f, 17.0f, 123.456f}};
+    const float values[variants][3] = {
+        {0.1f, 1e4f, 1e-6f}, {1.0f / 3.0f, 1e-3f, 3e5f}, {0.7f, 0.1f, 1e-6f}, {1e-7f, 2.5e-4f, 7e-7f}, {0.3f, 17.0f, 123.456f}};
     DeviceFilm film(device_, width, height);
     std::vector<Buffer<Vec3>> radiance;
     std::vector<Vec3> host[variants];
@@ -41,9 +42,14 @@ TEST_F(FilmStage, AccumulatesWithoutDrift)
         const float* pixel = &image.pixels[film.pixel_of_path(path) * image.channels.size()];
         for (int channel = 0; channel < 3; ++channel) {
             double mean = 0.0, variance = 0.0;
-            const auto value = [&](int variant) { return static_cast<double>(channel == 0 ? host[variant][path].x : channel == 1 ? host[variant][path].y : host[variant][path].z); };
+            const auto value = [&](int variant) {
+                return static_cast<double>(channel == 0   ? host[variant][path].x
+                                           : channel == 1 ? host[variant][path].y
+                                                          : host[variant][path].z);
+            };
             for (int variant = 0; variant < variants; ++variant) mean += value(variant) / variants;
-            for (int variant = 0; variant < variants; ++variant) variance += std::pow(value(variant) - mean, 2) / variants * iterations / (iterations - 1.0);
+            for (int variant = 0; variant < variants; ++variant)
+                variance += std::pow(value(variant) - mean, 2) / variants * iterations / (iterations - 1.0);
             ASSERT_NEAR(pixel[channel] / mean, 1.0, 2e-7) << "pixel " << path << ", channel " << channel;
             ASSERT_NEAR(pixel[3 + channel] / variance, 1.0, 1e-6) << "variance of pixel " << path << ", channel " << channel;
         }
@@ -54,7 +60,8 @@ TEST_F(FilmStage, CountsAndLeavesOutWhatIsNotFinite)
 {
     DeviceFilm film(device_, 3, 2);
     film.accumulate(upload(std::vector<Vec3>(6, {1, 2, 3})));
-    film.accumulate(upload(std::vector<Vec3>{{1, 2, 3}, {NAN, 0, 0}, {0, INFINITY, 0}, {0, 0, -INFINITY}, {1, 2, 3}, {INFINITY, -INFINITY, 0}}));
+    film.accumulate(
+        upload(std::vector<Vec3>{{1, 2, 3}, {NAN, 0, 0}, {0, INFINITY, 0}, {0, 0, -INFINITY}, {1, 2, 3}, {INFINITY, -INFINITY, 0}}));
     EXPECT_EQ(film.invalid_samples(), 4u);
     const Image image = film.resolve();
     for (const float value : image.pixels) EXPECT_TRUE(std::isfinite(value));
@@ -133,7 +140,8 @@ TEST_F(FilmStage, FirstHitsAreMeans)
             ASSERT_NEAR(y, static_cast<double>(pixel / 12) + 0.5, 0.50001);
             if (hits[path].primitive == NO_PRIMITIVE) continue;
             const Vec3d at = Vec3d(rays[path].origin) + d * hits[path].t;
-            depths[path] += length(at - Vec3d(sensor.position)) / static_cast<double>(iterations); // from the camera, not from its near plane
+            depths[path] +=
+                length(at - Vec3d(sensor.position)) / static_cast<double>(iterations); // from the camera, not from its near plane
         }
     }
     for (const Vec3& radiance : paths.radiance.download()) EXPECT_EQ(radiance.x, 0.0f);

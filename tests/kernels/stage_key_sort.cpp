@@ -79,8 +79,9 @@ TEST_P(KeySortStage, SortsShortLists)
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, KeySortStage,
-                         testing::Values(SortCase{"OnePass", false, 0, 5000}, SortCase{"OnePassOfAPowerOfTwo", false, 0, 4096}, SortCase{"TwoKeys", false, 0, 2},
-                                         SortCase{"FourBits", false, 4, 5000}, SortCase{"EightBits", false, 8, 70'001}, SortCase{"AsGpu", true, 0, 70'001},
+                         testing::Values(SortCase{"OnePass", false, 0, 5000}, SortCase{"OnePassOfAPowerOfTwo", false, 0, 4096},
+                                         SortCase{"TwoKeys", false, 0, 2}, SortCase{"FourBits", false, 4, 5000},
+                                         SortCase{"EightBits", false, 8, 70'001}, SortCase{"AsGpu", true, 0, 70'001},
                                          SortCase{"AsGpuFourBits", true, 4, 300}),
                          [](const auto& sort_case) { return sort_case.param.name; });
 

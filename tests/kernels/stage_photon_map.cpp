@@ -12,7 +12,8 @@ class PhotonMapStage : public DeviceFixture
 {
 protected:
     // Every query must find what a search through all photons finds. Returns how many photons were found in all.
-    double expect_brute_force(PhotonCloud& cloud, const std::vector<Photon>& photons, const std::vector<GatherQuery>& queries, double margin = 1e-5)
+    double expect_brute_force(PhotonCloud& cloud, const std::vector<Photon>& photons, const std::vector<GatherQuery>& queries,
+                              double margin = 1e-5)
     {
         double found = 0.0;
         const auto sums = cloud.gather(gather_, queries);
@@ -30,7 +31,10 @@ protected:
 
     std::mt19937 random_{7};
     float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
-    Vec3 point(const Bounds& box) { return {uniform(box.lower.x, box.upper.x), uniform(box.lower.y, box.upper.y), uniform(box.lower.z, box.upper.z)}; }
+    Vec3 point(const Bounds& box)
+    {
+        return {uniform(box.lower.x, box.upper.x), uniform(box.lower.y, box.upper.y), uniform(box.lower.z, box.upper.z)};
+    }
 
     // Half spread through the box, half crowded about a point of it.
     std::vector<Photon> crowd(const Bounds& box, std::size_t count, float spread)
@@ -39,7 +43,9 @@ protected:
         const Vec3 center = point(box);
         for (std::size_t i = 0; i < count; ++i) {
             Vec3 position = point(box);
-            if (i % 2 == 0) position = max(box.lower, min(box.upper, center + Vec3{uniform(-spread, spread), uniform(-spread, spread), uniform(-spread, spread)}));
+            if (i % 2 == 0)
+                position = max(box.lower,
+                               min(box.upper, center + Vec3{uniform(-spread, spread), uniform(-spread, spread), uniform(-spread, spread)}));
             photons.push_back(make_test_photon(position, {uniform(0.5f, 1.5f), 1, 1}));
         }
         return photons;
@@ -51,7 +57,9 @@ protected:
         std::vector<GatherQuery> queries;
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3 at = photons[random_() % photons.size()].position;
-            queries.push_back(make_test_query(at + Vec3{uniform(-radius, radius), uniform(-radius, radius), uniform(-radius, radius)} * static_cast<float>(i % 3), radius));
+            queries.push_back(make_test_query(at + Vec3{uniform(-radius, radius), uniform(-radius, radius), uniform(-radius, radius)} *
+                                                       static_cast<float>(i % 3),
+                                              radius));
         }
         return queries;
     }
@@ -105,11 +113,15 @@ TEST_F(PhotonMapStage, CellBorders)
         std::vector<GatherQuery> queries;
         const int cells = static_cast<int>(0.5f / radius);
         for (int i = 0; i < 1000; ++i) {
-            const auto border = [&] { return 2.0f * radius * static_cast<float>(static_cast<int>(random_() % static_cast<uint>(cells + 1))); };
+            const auto border = [&] {
+                return 2.0f * radius * static_cast<float>(static_cast<int>(random_() % static_cast<uint>(cells + 1)));
+            };
             const Vec3 at{border(), border(), border()};
             photons.push_back(make_test_photon(at, {1, 1, 1}));
-            const Vec3d direction = normalized(Vec3d(double(random_() % 3) - 1.0, double(random_() % 3) - 1.0, double(random_() % 3) - 0.9));
-            for (const double reach : {-0.9999, -0.5, 0.0, 0.5, 0.9999}) queries.push_back(make_test_query(to_float(Vec3d(at) + direction * (reach * radius)), radius));
+            const Vec3d direction =
+                normalized(Vec3d(double(random_() % 3) - 1.0, double(random_() % 3) - 1.0, double(random_() % 3) - 0.9));
+            for (const double reach : {-0.9999, -0.5, 0.0, 0.5, 0.9999})
+                queries.push_back(make_test_query(to_float(Vec3d(at) + direction * (reach * radius)), radius));
         }
         queries.resize(4000);
         cloud.build(photons, radius);
@@ -124,7 +136,8 @@ TEST_F(PhotonMapStage, CornersAndBeyondThem)
     std::vector<Photon> photons;
     std::vector<GatherQuery> queries;
     for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 at{corner & 1 ? box.lower.x : box.upper.x, corner & 2 ? box.lower.y : box.upper.y, corner & 4 ? box.lower.z : box.upper.z};
+        const Vec3 at{corner & 1 ? box.lower.x : box.upper.x, corner & 2 ? box.lower.y : box.upper.y,
+                      corner & 4 ? box.lower.z : box.upper.z};
         const Vec3 outwards = (at - box.center()) * 1e-5f;
         for (const Vec3 p : {at, at + outwards, at - outwards}) {
             photons.push_back(make_test_photon(p, {1, 1, 1}));
@@ -139,7 +152,8 @@ TEST_F(PhotonMapStage, CornersAndBeyondThem)
 // A plane has no thickness: one layer of cells.
 TEST_F(PhotonMapStage, FlatAndFarScenes)
 {
-    for (const Bounds& box : {Bounds{{0, 0, 1}, {10, 10, 1}}, Bounds{{5000, -5000, 20'000}, {5010, -4990, 20'000}}, Bounds{{0, 0, 0}, {0, 0, 0}}}) {
+    for (const Bounds& box :
+         {Bounds{{0, 0, 1}, {10, 10, 1}}, Bounds{{5000, -5000, 20'000}, {5010, -4990, 20'000}}, Bounds{{0, 0, 0}, {0, 0, 0}}}) {
         const auto photons = crowd(box, 5000, 0.5f);
         PhotonCloud cloud(device_, box, photons.size());
         cloud.build(photons, 0.2f);
@@ -152,7 +166,8 @@ TEST_F(PhotonMapStage, OtherSidesAndLongPathsAreLeftOut)
     std::vector<Photon> photons;
     for (int i = 0; i < 4000; ++i) {
         const Vec3d normal = normalized(Vec3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
-        photons.push_back(make_test_photon({uniform(0, 0.02f), uniform(0, 0.02f), 0}, {1, 1, 1}, normal, static_cast<uint>(random_() % 256)));
+        photons.push_back(
+            make_test_photon({uniform(0, 0.02f), uniform(0, 0.02f), 0}, {1, 1, 1}, normal, static_cast<uint>(random_() % 256)));
     }
     std::vector<GatherQuery> queries;
     for (int i = 0; i < 500; ++i) {

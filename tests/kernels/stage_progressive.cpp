@@ -74,7 +74,8 @@ TEST_F(ProgressiveStage, FollowsTheRecurrence)
         update_(pixels, queries, sums, static_cast<uint>(pixels), alpha, inverse_paths, device_pixels, radiance);
         if (iteration % 100 != 0) continue;
         const auto got = radiance.download();
-        for (std::size_t i = 0; i < pixels; ++i) ASSERT_NEAR(got[i].x, result[i].x, 1e-4 * result[i].x) << "radiance of pixel " << i << ", iteration " << iteration;
+        for (std::size_t i = 0; i < pixels; ++i)
+            ASSERT_NEAR(got[i].x, result[i].x, 1e-4 * result[i].x) << "radiance of pixel " << i << ", iteration " << iteration;
     }
     const auto got = device_pixels.download();
     for (std::size_t i = 0; i < pixels; ++i) {
@@ -87,11 +88,9 @@ TEST_F(ProgressiveStage, FollowsTheRecurrence)
     }
 }
 
-// Steady arrivals: r^2 falls as the schedule of [Knaus and Zwicker 2011] does, r_{i+1}^2 = r_i^2 (i + alpha) / (i + 1).
-TEST_F(ProgressiveStage, SteadyArrivalsGiveTheSchedule)
+// As many photons M in every iteration: N_i = alpha i M, so r_{i+1}^2 / r_i^2 = alpha (i + 1) / (alpha i + 1).
+TEST_F(ProgressiveStage, SteadyArrivalsShrinkTheRadiusInClosedForm)
 {
-    // Photons arrive in proportion to the area: M = m r^2, so N = alpha i M_1 to first order. With M constant:
-    // N_i = alpha i M and r_{i+1}^2 / r_i^2 = alpha (i + 1) / (alpha i + 1).
     ProgressivePixel pixel{};
     pixel.radius_squared = 1.0f;
     const auto pixels = upload(std::vector{pixel});
@@ -161,7 +160,8 @@ TEST_F(ProgressiveStage, GatheredLightIsAddedWhereThereIsAQuery)
     GatherQuery none = query;
     none.radius = 0.0f;
     const auto radiance = upload(std::vector<Vec3>{{1, 2, 3}, {1, 2, 3}});
-    Kernel(device_, "add_gathered", "Add")(2, upload(std::vector{query, none}), upload(std::vector<GatherSum>(2, {{8, 16, 32}, 0})), 2u, 0.25f, radiance);
+    Kernel(device_, "add_gathered", "Add")(2, upload(std::vector{query, none}), upload(std::vector<GatherSum>(2, {{8, 16, 32}, 0})), 2u,
+                                           0.25f, radiance);
     const auto got = radiance.download();
     EXPECT_EQ(got[0].x, 2.0f);
     EXPECT_EQ(got[0].y, 6.0f);
@@ -197,7 +197,8 @@ TEST_F(ProgressiveStage, SplatsAreSummedInOrder)
 {
     constexpr uint pixels = 50, count = 3000;
     std::vector<Splat> splats(count);
-    for (Splat& splat : splats) splat = {{uniform(0, 1) * std::pow(10.0f, uniform(-6, 6)), 1, 0}, static_cast<uint>(random_() % (pixels - 5))};
+    for (Splat& splat : splats)
+        splat = {{uniform(0, 1) * std::pow(10.0f, uniform(-6, 6)), 1, 0}, static_cast<uint>(random_() % (pixels - 5))};
     std::vector<uint> order(count), ends(pixels, 0);
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](uint a, uint b) { return splats[a].pixel < splats[b].pixel; });

@@ -22,7 +22,8 @@ protected:
         std::vector<uint> active(count);
         std::iota(active.begin(), active.end(), 0u);
         const auto hits = allocate<Hit>(count);
-        Kernel(device_, "trace_closest", "Trace", scene.trace_options())(count, scene.geometry(), rays, hits, upload(active), upload(std::vector{count}));
+        Kernel(device_, "trace_closest", "Trace", scene.trace_options())(count, scene.geometry(), rays, hits, upload(active),
+                                                                         upload(std::vector{count}));
         return hits.download();
     }
 
@@ -55,7 +56,13 @@ protected:
                 passed[i] = ray_from(&surface, -o);
             })");
         const auto device_rays = upload(rays);
-        Continued result{.first = trace(scene, device_rays), .reflected = {}, .passed = {}, .positions = {}, .geometric_normals = {}, .shading_normals = {}, .outgoing = {}};
+        Continued result{.first = trace(scene, device_rays),
+                         .reflected = {},
+                         .passed = {},
+                         .positions = {},
+                         .geometric_normals = {},
+                         .shading_normals = {},
+                         .outgoing = {}};
         const auto vectors = allocate<Vec3>(std::size_t(4) * count);
         const auto reflected = allocate<Ray>(count), passed = allocate<Ray>(count);
         kernel(count, scene.surfaces(), count, device_rays, upload(result.first), vectors, reflected, passed);
@@ -154,7 +161,8 @@ TEST_P(SurfaceOffsets, ShadingNormalsStayOnTheirSide)
 {
     const double scale = GetParam();
     TriangleMesh mesh = parallelogram({0, 0, 0}, {static_cast<float>(scale), 0, 0}, {0, static_cast<float>(scale), 0});
-    mesh.normals = {to_float(normalized({-1, -1, 0.5})), to_float(normalized({1, -1, 0.5})), to_float(normalized({1, 1, 0.5})), to_float(normalized({-1, 1, 0.5}))};
+    mesh.normals = {to_float(normalized({-1, -1, 0.5})), to_float(normalized({1, -1, 0.5})), to_float(normalized({1, 1, 0.5})),
+                    to_float(normalized({-1, 1, 0.5}))};
     const DeviceScene scene(device_, SceneBuilder().shape(mesh).emitter(PointEmitter{{0, 0, 0}, {1, 1, 1}}).scene);
     const Continued result = follow(scene, rays_at(Vec3d(0.5, 0.5, 0) * scale, 0.5 * scale));
     int smooth = 0;
@@ -168,8 +176,9 @@ TEST_P(SurfaceOffsets, ShadingNormalsStayOnTheirSide)
     EXPECT_GT(smooth, 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scales, SurfaceOffsets, testing::Values(1e-3, 1e-1, 1.0, 100.0, 1e4),
-                         [](const auto& scale) { return "E" + std::to_string(static_cast<int>(std::lround(std::log10(scale.param))) + 3); });
+INSTANTIATE_TEST_SUITE_P(Scales, SurfaceOffsets, testing::Values(1e-3, 1e-1, 1.0, 100.0, 1e4), [](const auto& scale) {
+    return "E" + std::to_string(static_cast<int>(std::lround(std::log10(scale.param))) + 3);
+});
 
 } // namespace
 } // namespace sundog

@@ -40,7 +40,10 @@ inline double upper_gamma_fraction(double a, double x)
 }
 
 // Probability that a chi-squared variable of so many degrees of freedom exceeds `statistic`.
-inline double chi_squared_p_value(double statistic, int degrees) { return upper_gamma_fraction(0.5 * degrees, 0.5 * statistic); }
+inline double chi_squared_p_value(double statistic, int degrees)
+{
+    return upper_gamma_fraction(0.5 * degrees, 0.5 * statistic);
+}
 
 struct ChiSquaredResult {
     double statistic = 0.0;
@@ -73,13 +76,18 @@ inline ChiSquaredResult chi_squared(std::span<const double> observed, std::span<
 }
 
 // Level of one test such that all `tests` together reject a true hypothesis with probability 0.01 [Sidak 1967].
-inline double sidak_level(int tests) { return -std::expm1(std::log1p(-0.01) / tests); }
+inline double sidak_level(int tests)
+{
+    return -std::expm1(std::log1p(-0.01) / tests);
+}
 
 // Whether counts follow the expectation, one of `tests` tests. The expected counts must add up to the observed
 // ones within `total_tolerance` (relative), for they come from densities that must integrate to 1.
-inline testing::AssertionResult follows(std::span<const double> observed, std::span<const double> expected, int tests, double total_tolerance = 1e-3)
+inline testing::AssertionResult follows(std::span<const double> observed, std::span<const double> expected, int tests,
+                                        double total_tolerance = 1e-3)
 {
-    if (observed.size() != expected.size()) return testing::AssertionFailure() << observed.size() << " bins, " << expected.size() << " expected";
+    if (observed.size() != expected.size())
+        return testing::AssertionFailure() << observed.size() << " bins, " << expected.size() << " expected";
     const double total = std::accumulate(observed.begin(), observed.end(), 0.0);
     const double expected_total = std::accumulate(expected.begin(), expected.end(), 0.0);
     if (!(std::abs(total - expected_total) <= total_tolerance * total))
@@ -87,7 +95,8 @@ inline testing::AssertionResult follows(std::span<const double> observed, std::s
     const ChiSquaredResult result = chi_squared(observed, expected);
     if (result.degrees < 1) return testing::AssertionFailure() << "too few counts for a test";
     if (!(result.p > sidak_level(tests)))
-        return testing::AssertionFailure() << "chi squared " << result.statistic << " with " << result.degrees << " degrees of freedom, p = " << result.p;
+        return testing::AssertionFailure() << "chi squared " << result.statistic << " with " << result.degrees
+                                           << " degrees of freedom, p = " << result.p;
     return testing::AssertionSuccess() << "p = " << result.p;
 }
 

@@ -45,7 +45,8 @@ struct DirectionGrid {
         for (int row = 0; row < rows; ++row)
             for (int column = 0; column < columns; ++column)
                 for (int i = 0; i < fine; ++i)
-                    for (int j = 0; j < fine; ++j) points.push_back(direction((row + (i + 0.5) / fine) / rows, (column + (j + 0.5) / fine) / columns));
+                    for (int j = 0; j < fine; ++j)
+                        points.push_back(direction((row + (i + 0.5) / fine) / rows, (column + (j + 0.5) / fine) / columns));
         return points;
     }
 
@@ -54,7 +55,8 @@ struct DirectionGrid {
     {
         std::vector<double> counts(bins(), 0.0);
         const std::size_t parts = static_cast<std::size_t>(fine) * fine;
-        for (std::size_t i = 0; i < densities.size(); ++i) counts[i / parts] += densities[i] * solid_angle() / static_cast<double>(parts) * samples;
+        for (std::size_t i = 0; i < densities.size(); ++i)
+            counts[i / parts] += densities[i] * solid_angle() / static_cast<double>(parts) * samples;
         return counts;
     }
 

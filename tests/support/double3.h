@@ -22,11 +22,26 @@ struct Vec3d {
     Vec3d operator-() const { return {-x, -y, -z}; }
 };
 
-inline double dot(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3d cross(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-inline double length(Vec3d a) { return std::sqrt(dot(a, a)); }
-inline Vec3d normalized(Vec3d a) { return a / length(a); }
-inline Vec3 to_float(Vec3d a) { return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)}; }
+inline double dot(Vec3d a, Vec3d b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline Vec3d cross(Vec3d a, Vec3d b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(Vec3d a)
+{
+    return std::sqrt(dot(a, a));
+}
+inline Vec3d normalized(Vec3d a)
+{
+    return a / length(a);
+}
+inline Vec3 to_float(Vec3d a)
+{
+    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
 
 // Any orthonormal frame about n.
 struct Frame3d {

@@ -83,7 +83,8 @@ public:
         const uint count = static_cast<uint>(photons.size());
         if (count > 0) {
             const Buffer<Photon> deposits(*device_, photons, "deposits");
-            const Buffer<uint> flags(*device_, std::vector<uint>(count, PATH_DEPOSIT), "flags"), counts(*device_, std::vector{count}, "count");
+            const Buffer<uint> flags(*device_, std::vector<uint>(count, PATH_DEPOSIT), "flags"),
+                counts(*device_, std::vector{count}, "count");
             records_.append(compaction_, deposits, flags, counts, count);
         }
         map.build(records_, count, largest_radius);

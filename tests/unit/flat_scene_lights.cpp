@@ -82,7 +82,8 @@ TEST(FlatSceneLights, AreasAndPowers)
     EXPECT_FLOAT_EQ(flat.lights[3].area, static_cast<float>(pi * 6.0));
 
     const double disk = pi * flat.globals.radius * flat.globals.radius;
-    const double powers[] = {pi * 3 * 2, pi * 3 * 2, pi * pi * 4, pi * pi * 6, 4 * pi * 3, disk * 0.5, 4 * pi * disk * 0.25, 2 * pi * (1 - std::cos(0.5)) * 2};
+    const double powers[] = {pi * 3 * 2, pi * 3 * 2, pi * pi * 4,          pi * pi * 6,
+                             4 * pi * 3, disk * 0.5, 4 * pi * disk * 0.25, 2 * pi * (1 - std::cos(0.5)) * 2};
     const double total = std::accumulate(std::begin(powers), std::end(powers), 0.0);
     for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(power(flat, i), powers[i] / total, 1e-5) << "light " << i;
 }

@@ -76,7 +76,8 @@ TEST(FlatSceneShapes, NormalsStayBesideTheirPositions)
 
 TEST(FlatSceneShapes, BoundingSphereHoldsEverything)
 {
-    const FlatScene flat = flatten_scene(SceneBuilder().shape(Sphere{{2, 0, 0}, 1.0f, false}).shape(triangle({-1, 0, 0}, {0, 4, 0}, {0, 0, 2})).emitter(lamp).scene);
+    const FlatScene flat = flatten_scene(
+        SceneBuilder().shape(Sphere{{2, 0, 0}, 1.0f, false}).shape(triangle({-1, 0, 0}, {0, 4, 0}, {0, 0, 2})).emitter(lamp).scene);
     for (const Vec3 corner : {Vec3{-1, -1, -1}, Vec3{3, 4, 2}}) EXPECT_LE(length(corner - flat.globals.center), flat.globals.radius);
     EXPECT_LT(flat.globals.radius, 1.01f * 0.5f * length(Vec3{4, 5, 3}));
 }
