@@ -38,7 +38,7 @@ std::string allowed_values(const ParameterSpec& spec)
     case ParameterType::integer:
     case ParameterType::real: break;
     }
-    const std::string kind = spec.type == ParameterType::integer ? "integer" : "number";
+    std::string kind = spec.type == ParameterType::integer ? "integer" : "number";
     if (!(spec.minimum < spec.maximum)) return kind;
     if (spec.maximum >= 1e15) return fmt::format("{}, at least {:g}", kind, spec.minimum);
     return fmt::format("{}, {:g} to {:g}", kind, spec.minimum, spec.maximum);
