@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <utility>
 
 namespace sundog {
@@ -59,24 +60,41 @@ void KeySort::place_digits(const Buffer<uint>& count, uint shift, uint digits)
     place_digits_.launch_grouped(runs, 1, histogram_, chunks_, digits, run_length, run_sums_);
 }
 
+bool KeySort::takes_one_pass(uint key_range) const
+{
+    return bits_of(key_range) <= digit_bits_;
+}
+
+void KeySort::place(const Buffer<uint>& count, uint key_range)
+{
+    assert(takes_one_pass(key_range));
+    digits_ = 1u << bits_of(key_range);
+    one_pass_ = true;
+    place_digits(count, 0, digits_);
+    ends_offset_ = (chunks_ - 1) * digits_; // after scattering the last chunk's places are the digits' ends
+}
+
 void KeySort::sort(const Buffer<uint>& count, std::size_t items, uint key_range)
 {
-    const uint key_bits = bits_of(key_range);
-    const uint digit_bits = std::min(key_bits, digit_bits_);
-    const uint digits = 1u << digit_bits;
-    one_pass_ = digit_bits == key_bits;
-    for (uint shift = 0; shift < key_bits; shift += digit_bits) {
-        place_digits(count, shift, digits);
-        const Kernel& scatter = shift == 0 ? scatter_first_ : scatter_next_;
-        Buffer<uint>& keys_out = keeps_keys_ ? next_keys_ : keys;
-        Buffer<uint>& order_out = shift == 0 ? order_ : next_order_;
-        scatter.launch_grouped(chunks_, 1, keys, order_, count, chunks_, shift, digits, histogram_, keys_out, order_out);
-        if (shift > 0) std::swap(order_, next_order_);
+    if (takes_one_pass(key_range)) {
+        place(count, key_range);
+        scatter_first_.launch_grouped(chunks_, 1, keys, order_, count, chunks_, 0u, digits_, histogram_, keeps_keys_ ? next_keys_ : keys, order_);
         if (keeps_keys_) std::swap(keys, next_keys_);
+        return;
     }
-    // After one pass the last chunk's places are the digits' ends.
-    ends_offset_ = one_pass_ ? (chunks_ - 1) * digits : 0;
-    if (!one_pass_) find_key_ends_(std::max<std::size_t>(items, 1), keys, count, key_range, ends_);
+    const uint key_bits = bits_of(key_range);
+    digits_ = 1u << digit_bits_;
+    one_pass_ = false;
+    for (uint shift = 0; shift < key_bits; shift += digit_bits_) {
+        place_digits(count, shift, digits_);
+        const Kernel& scatter = shift == 0 ? scatter_first_ : scatter_next_;
+        Buffer<uint>& order_out = shift == 0 ? order_ : next_order_;
+        scatter.launch_grouped(chunks_, 1, keys, order_, count, chunks_, shift, digits_, histogram_, next_keys_, order_out);
+        if (shift > 0) std::swap(order_, next_order_);
+        std::swap(keys, next_keys_);
+    }
+    ends_offset_ = 0;
+    find_key_ends_(std::max<std::size_t>(items, 1), keys, count, key_range, ends_);
 }
 
 } // namespace sundog

@@ -20,6 +20,14 @@ public:
 
     const Buffer<uint>& order() const { return order_; }
 
+    // The sort up to its last step, for records that are cheap to move: counts and places. To be called where
+    // takes_one_pass(); chunk c then writes its records, in order, at histogram()[c * digits + key]++.
+    bool takes_one_pass(uint key_range) const;
+    void place(const Buffer<uint>& count, uint key_range);
+    Buffer<uint>& histogram() { return histogram_; }
+    uint chunks() const { return chunks_; }
+    uint digits() const { return digits_; } // of the last sort
+
     // ends()[ends_offset() + key]: one past the key's last place in the order.
     const Buffer<uint>& ends() const;
     uint ends_offset() const { return ends_offset_; }
@@ -33,6 +41,7 @@ private:
     uint digit_bits_ = 0; // at most
     bool keeps_keys_ = false; // more than one digit may be needed
     bool one_pass_ = true;    // of the last sort
+    uint digits_ = 1;         // of the last sort
     uint chunks_ = 1;
     uint max_runs_ = 1;
     Kernel count_keys_, sum_digits_, scan_counts_, place_digits_, scatter_first_, scatter_next_, find_key_ends_;

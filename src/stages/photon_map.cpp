@@ -43,7 +43,9 @@ PhotonGrid make_photon_grid(const Bounds& bounds, float largest_radius, uint tab
 
 PhotonMap::PhotonMap(Device& device, const Bounds& bounds)
     : device_(&device), bounds_(bounds), photon_cell_keys_(device, "photon_cell_keys", "Find photon cells"),
-      reorder_photons_(device, "reorder_photons", "Lay out photons")
+      scatter_photons_(device, "scatter_photons", "Sort photons"),
+      reorder_photons_(device, "reorder_photons", "Lay out photons", {{{"IN_ORDER", "0"}}, {}}),
+      lay_out_sorted_(device, "reorder_photons", "Lay out photons", {{{"IN_ORDER", "1"}}, {}})
 {
 }
 
@@ -52,6 +54,7 @@ void PhotonMap::reserve(std::size_t photons)
     if (sort_ && sort_->capacity() >= photons) return;
     sort_.reset();
     streams_ = {};
+    sorted_ = {};
     table_size_ = static_cast<uint>(std::clamp(std::bit_ceil(photons * cells_per_photon), min_table_size, max_table_size));
     sort_ = std::make_unique<KeySort>(*device_, photons, table_size_);
     streams_ = Buffer<float>(*device_, PHOTON_STREAMS * stream_stride(photons), "photon streams");
@@ -62,8 +65,24 @@ void PhotonMap::build(const RecordList<Photon>& photons, std::size_t count, floa
     reserve(photons.capacity());
     grid_ = make_photon_grid(bounds_, largest_radius, table_size_, static_cast<uint>(stream_stride(photons.capacity())));
     photon_cell_keys_(count, grid_, photons.records(), photons.count(), sort_->keys);
-    sort_->sort(photons.count(), count, grid_.cell_count);
-    reorder_photons_((count + 7) / 8, photons.records(), sort_->order(), photons.count(), grid_.stride, streams_);
+    sort_and_lay_out(photons, count);
+}
+
+void PhotonMap::sort_and_lay_out(const RecordList<Photon>& photons, std::size_t count)
+{
+    const std::size_t eights = (count + 7) / 8;
+    if (!sort_->takes_one_pass(grid_.cell_count)) {
+        sort_->sort(photons.count(), count, grid_.cell_count);
+        reorder_photons_(eights, photons.records(), sort_->order(), photons.count(), grid_.stride, streams_);
+        return;
+    }
+    // Reading photons in sorted order misses the cache at every one; writing them there does not, as long as the
+    // places being written, one a cell, fit into it.
+    if (!sorted_) sorted_ = Buffer<Photon>(*device_, photons.capacity(), "sorted photons");
+    sort_->place(photons.count(), grid_.cell_count);
+    scatter_photons_.launch_grouped(sort_->chunks(), 1, photons.records(), sort_->keys, photons.count(), sort_->chunks(), sort_->digits(), sort_->histogram(),
+                                    sorted_);
+    lay_out_sorted_(eights, sorted_, sort_->order(), photons.count(), grid_.stride, streams_);
 }
 
 } // namespace sundog

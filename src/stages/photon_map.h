@@ -26,12 +26,15 @@ public:
 
 private:
     void reserve(std::size_t photons);
+    void sort_and_lay_out(const RecordList<Photon>& photons, std::size_t count);
 
     Device* device_;
     Bounds bounds_;
     Kernel photon_cell_keys_;
-    Kernel reorder_photons_;
+    Kernel scatter_photons_;
+    Kernel reorder_photons_, lay_out_sorted_;
     std::unique_ptr<KeySort> sort_;
+    Buffer<Photon> sorted_; // only where photons are scattered whole
     Buffer<float> streams_;
     uint table_size_ = 0;
     PhotonGrid grid_{};
