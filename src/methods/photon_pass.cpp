@@ -18,7 +18,7 @@ PathRules query_rules(const Parameters& parameters)
 
 PhotonPass::PhotonPass(RenderContext& context, const Parameters& parameters, const std::string& estimator, int density_kernel)
     : context_(context), light_paths_(light_path_count(parameters, context.film.pixel_count())),
-      first_radius_(initial_radius(parameters, context.scene.radius(), light_paths_)),
+      first_radius_(initial_radius(parameters, context.scene.radius(), light_paths_, pixel_footprint(context.camera, context.scene.bounds()))),
       pool_(context.device, context.scene, std::max(light_paths_, context.film.pixel_count())),
       photons_(context.device, {light_paths_, path_rules(parameters), parameters.text("direct") == "nee", sampler_kind(parameters)}),
       camera(context.device, context.camera, context.filter, sampler_kind(parameters)),

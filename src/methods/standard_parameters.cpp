@@ -1,5 +1,6 @@
 #include "methods/standard_parameters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +11,8 @@ namespace {
 constexpr double unlimited = 1e15;
 // Photons that a query should find in the first iteration.
 constexpr double target_photons = 10.0;
+// Pixels across its radius at most: a larger one blurs what a longer render would have to sharpen again.
+constexpr double target_pixels = 4.0;
 
 } // namespace
 
@@ -44,7 +47,7 @@ ParameterSpec photons_spec()
 ParameterSpec radius_spec()
 {
     return {"radius", ParameterType::real, "0", "scene units",
-            "Radius of the first iteration's density estimate; 0: chosen from the scene's size and the number of light subpaths.", 0, unlimited, {}};
+            "Radius of the first iteration's density estimate; 0: a few pixels, or less where light subpaths are many.", 0, unlimited, {}};
 }
 
 ParameterSpec alpha_spec()
@@ -90,12 +93,20 @@ std::size_t light_path_count(const Parameters& parameters, std::size_t pixels)
     return photons > 0 ? static_cast<std::size_t>(photons) : pixels;
 }
 
-float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths)
+float pixel_footprint(const Camera& camera, const Bounds& scene)
+{
+    // A camera in the middle of its scene sees walls about a radius away.
+    const float distance = std::max(length(scene.center() - camera.position), 0.5f * scene.radius());
+    return distance * 2.0f * camera.tan_half_x / static_cast<float>(camera.film_width);
+}
+
+float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths, float pixel_footprint)
 {
     const double radius = parameters.real("radius");
     if (radius > 0.0) return static_cast<float>(radius);
     // N photons on a sphere of radius R: N r^2 / (4 R^2) of them lie within r.
-    return static_cast<float>(2.0 * scene_radius * std::sqrt(target_photons / static_cast<double>(light_paths)));
+    const double by_density = 2.0 * static_cast<double>(scene_radius) * std::sqrt(target_photons / static_cast<double>(light_paths));
+    return static_cast<float>(std::min(by_density, target_pixels * static_cast<double>(pixel_footprint)));
 }
 
 double scheduled_radius(double first_radius, double alpha, int dimensions, std::uint64_t iteration)

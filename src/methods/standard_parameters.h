@@ -1,7 +1,9 @@
 // Parameters that many methods share, so that they mean the same everywhere.
 #pragma once
 
+#include "math/bounds.h"
 #include "methods/parameters.h"
+#include "shared/camera.h"
 #include "shared/path.h"
 #include "stages/sampling.h"
 
@@ -24,9 +26,12 @@ int density_kernel(const Parameters& parameters); // as DENSITY_KERNEL
 // Light subpaths an iteration: `photons`, or one a pixel.
 std::size_t light_path_count(const Parameters& parameters, std::size_t pixels);
 
-// `radius`, or, when that is 0, one within which a query finds a handful of photons if they spread evenly
-// over a sphere around the scene: it scales with the scene and with the number of light paths.
-float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths);
+// Width (scene units) of a pixel where the camera sees the middle of the scene.
+float pixel_footprint(const Camera& camera, const Bounds& scene);
+
+// `radius`, or, when that is 0, the smaller of two: one within which a query finds a handful of photons if they
+// spread evenly over a sphere around the scene, and a few pixels. Both scale with the scene.
+float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths, float pixel_footprint);
 
 // Radius of iteration i (from 0) in the schedule r_{i+1}^d = r_i^d (i + alpha) / (i + 1), i from 1
 // [Knaus and Zwicker 2011, eq. 20], closed by the gamma function so that any iteration can be asked for.

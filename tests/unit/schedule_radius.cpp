@@ -50,27 +50,48 @@ TEST(RadiusSchedule, ShrinksByItsPowerLaw)
     }
 }
 
+constexpr float large_pixel = 1.0f; // of the scene's size: leaves the choice to the photons' density
+
 TEST(InitialRadius, IsWhatTheUserAsksFor)
 {
-    EXPECT_EQ(initial_radius(radius_parameters("0.125"), 50.0f, 1000), 0.125f);
+    EXPECT_EQ(initial_radius(radius_parameters("0.125"), 50.0f, 1000, 0.01f), 0.125f);
 }
 
 // Millimetres or kilometres: the same picture.
 TEST(InitialRadius, ScalesWithTheScene)
 {
     const Parameters automatic = radius_parameters("0");
-    const float unit = initial_radius(automatic, 1.0f, 100'000);
+    const float unit = initial_radius(automatic, 1.0f, 100'000, large_pixel);
     EXPECT_GT(unit, 0.0f);
     EXPECT_LT(unit, 1.0f);
-    for (const float scale : {1e-3f, 1e3f}) EXPECT_NEAR(initial_radius(automatic, scale, 100'000) / (scale * unit), 1.0, 1e-6);
+    for (const float scale : {1e-3f, 1e3f}) EXPECT_NEAR(initial_radius(automatic, scale, 100'000, scale * large_pixel) / (scale * unit), 1.0, 1e-6);
 }
 
 // N r^2 stays: a query finds as many photons however many are emitted.
 TEST(InitialRadius, KeepsTheNumberOfPhotonsFound)
 {
     const Parameters automatic = radius_parameters("0");
-    const double few = initial_radius(automatic, 1.0f, 1000), many = initial_radius(automatic, 1.0f, 4'000'000);
+    const double few = initial_radius(automatic, 1.0f, 1000, large_pixel), many = initial_radius(automatic, 1.0f, 4'000'000, large_pixel);
     EXPECT_NEAR(few * few * 1000, many * many * 4'000'000, 1e-4 * few * few * 1000);
+}
+
+// With few photons a fine image is not blurred by more than a few pixels; with many it does not matter.
+TEST(InitialRadius, IsAtMostAFewPixels)
+{
+    const Parameters automatic = radius_parameters("0");
+    EXPECT_NEAR(initial_radius(automatic, 1.0f, 1000, 0.001f), 0.004f, 1e-6f);
+    EXPECT_EQ(initial_radius(automatic, 1.0f, 4'000'000, 0.01f), initial_radius(automatic, 1.0f, 4'000'000, large_pixel));
+}
+
+TEST(PixelFootprint, IsAPixelsWidthAtTheMiddleOfTheScene)
+{
+    Camera camera{};
+    camera.position = {0, 0, 5};
+    camera.tan_half_x = 0.5f;
+    camera.film_width = 100;
+    EXPECT_NEAR(pixel_footprint(camera, {{-1, -1, -1}, {1, 1, 1}}), 0.05f, 1e-6f);
+    camera.position = {0, 0, 0}; // inside: half the bounding sphere's radius away
+    EXPECT_NEAR(pixel_footprint(camera, {{-1, -1, -1}, {1, 1, 1}}), 0.005f * std::sqrt(3.0f), 1e-6f);
 }
 
 } // namespace
