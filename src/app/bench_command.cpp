@@ -91,7 +91,7 @@ void add_bench_command(CLI::App& app, ExitStatus& status)
     auto options = std::make_shared<BenchOptions>();
     CLI::App* command = app.add_subcommand("bench", "Measure rates on a device");
     command->add_option("--section", options->sections, "Measure this section only (repeatable)")->type_name("NAME")->allow_extra_args(false);
-    command->add_option("-d,--device", options->device, "OpenCL device: index, part of the name, cpu or gpu")->type_name("SELECTOR");
+    command->add_option("-d,--device", options->device, "OpenCL device: index, part of the name, cpu, gpu or all")->type_name("SELECTOR");
     CLI::Option* json = command->add_option("--json", options->json, "Write JSON to FILE, or to standard output without one")->type_name("FILE")->expected(0, 1);
     std::string sections = "Sections:\n";
     for (const BenchSection& section : bench_sections()) sections += "  " + section.name + ": " + section.description + "\n";

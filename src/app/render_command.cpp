@@ -190,7 +190,7 @@ void add_render_command(CLI::App& app, ExitStatus& status)
     command->add_option("-t,--time", options->time, "Stop when so many seconds of rendering are over; with -n, whichever comes first")->type_name("SECONDS");
     command->add_option("-s,--seed", options->seed, "Seed of the random numbers, instead of the scene's")->type_name("N");
     command->add_option("--size", options->size, "Film size in pixels, instead of the scene's")->type_name("WxH");
-    command->add_option("-d,--device", options->device, "OpenCL device: index, part of the name, cpu or gpu")->type_name("SELECTOR");
+    command->add_option("-d,--device", options->device, "OpenCL device: index, part of the name, cpu, gpu or all")->type_name("SELECTOR");
     command->add_option("--exposure", options->exposure, "Scale PNG by 2^STOPS")->type_name("STOPS");
     command->add_option("--progress", options->progress, "auto (a bar on a terminal, plain lines elsewhere), bar, plain, json or off")->type_name("MODE");
     command->add_option("--stats", options->stats, "Write counts and times as JSON")->type_name("FILE");

@@ -33,9 +33,9 @@ struct DeviceInfo {
 // Every device of every platform, in a stable order. Empty when there is none.
 std::vector<DeviceInfo> list_devices();
 
-// Chooses by selector: "" (a GPU if there is one, else the first), "cpu", "gpu", an index, or a
-// part of a name (case ignored). Throws DeviceError when nothing matches (naming what there is), and,
-// without any device, with the packages to install.
+// Chooses by selector: "" (a GPU if there is one, else the first), "cpu", "gpu", an index, a part of a name (case
+// ignored), or "all" (where there is only one; several at once are refused). Throws DeviceError when nothing
+// matches, naming what there is, and, without any device, with the packages to install.
 DeviceInfo select_device(std::string_view selector);
 
 class Profile;

@@ -126,6 +126,10 @@ DeviceInfo select_device(std::string_view selector)
         const auto gpu = std::find_if(devices.begin(), devices.end(), [](const auto& device) { return device.is_gpu; });
         return gpu != devices.end() ? *gpu : devices.front();
     }
+    if (wanted == "all") {
+        if (devices.size() == 1) return devices.front();
+        throw DeviceError(fmt::format("Sundog renders on one device at a time so far; choose one of: {}", name_all(devices)));
+    }
     int index = 0;
     if (is_index(wanted, index)) {
         if (index >= 0 && index < int(devices.size())) return devices[std::size_t(index)];

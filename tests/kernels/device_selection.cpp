@@ -66,6 +66,11 @@ TEST(DeviceSelection, NamesWhatThereIsWhenNothingMatches)
     EXPECT_THAT(selection_error("no such device"), testing::AllOf(HasSubstr("no such device"), HasSubstr(devices.front().name)));
     EXPECT_THAT(selection_error("4711"), testing::AllOf(HasSubstr("4711"), HasSubstr(devices.front().name)));
     EXPECT_THAT(selection_error("-1"), HasSubstr("-1"));
+    if (devices.size() == 1) {
+        EXPECT_EQ(select_device("all").index, 0);
+    } else {
+        EXPECT_THAT(selection_error("all"), HasSubstr("one device at a time"));
+    }
     if (std::none_of(devices.begin(), devices.end(), [](const auto& d) { return d.is_gpu; })) {
         EXPECT_THAT(selection_error("gpu"), HasSubstr("gpu"));
     }
