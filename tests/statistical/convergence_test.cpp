@@ -139,4 +139,13 @@ TEST(Convergence, FixedRadiusKeepsItsBias)
     EXPECT_GT(slope.value, -0.2);
 }
 
+// Slow: only with scripts/test --long.
+TEST(LongConvergence, PppmKeepsItsRateOverEightDoublings)
+{
+    const Slope slope = mse_slope(
+        {"pppm", 0, {{"sampler", "independent"}, {"photons", "2048"}, {"radius", "0.25"}, {"direct", "photons"}, {"alpha", "0.66666667"}}}, 32, 8, 12);
+    EXPECT_LT(slope.standard_error, 0.03);
+    EXPECT_NEAR(slope.value, -2.0 / 3.0, 3.5 * slope.standard_error + 0.01); // the schedule's own curvature, see above
+}
+
 } // namespace
