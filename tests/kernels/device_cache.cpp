@@ -150,12 +150,12 @@ TEST_F(DeviceCache, WorksWithoutAWritableFolder)
 TEST_F(DeviceCache, FolderFollowsTheEnvironment)
 {
     EXPECT_EQ(program_cache_directory(), folder_.string());
-    const ScopedVariable home("HOME", "/home/somebody");
+    const ScopedVariable home("HOME", "/nowhere/somebody");
     const ScopedVariable shared("XDG_CACHE_HOME", "/somewhere/cache");
     const ScopedVariable none("SUNDOG_CACHE_DIR", nullptr);
     EXPECT_EQ(program_cache_directory(), "/somewhere/cache/sundog");
     const ScopedVariable not_shared("XDG_CACHE_HOME", "");
-    EXPECT_EQ(program_cache_directory(), "/home/somebody/.cache/sundog");
+    EXPECT_EQ(program_cache_directory(), "/nowhere/somebody/.cache/sundog");
 }
 
 TEST(DeviceCacheChild, DISABLED_BuildsOrLoads)
