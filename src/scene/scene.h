@@ -7,6 +7,7 @@
 #include "base/errors.h"
 #include "math/bounds.h"
 #include "math/vec3.h"
+#include "shared/vec2.h"
 
 #include <array>
 #include <cstdint>
@@ -20,10 +21,19 @@ namespace sundog {
 
 // --- Surfaces -----------------------------------------------------------------
 
+// Colours (linear sRGB) or numbers (three times the same) that a mesh file gives, for textures of type mesh_attribute.
+struct MeshAttribute {
+    std::string name; // "vertex_color", "face_color", ...
+    bool per_face = false; // one value a triangle; else one a position
+    std::vector<Vec3> values;
+};
+
 struct TriangleMesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals; // empty, or one a position (unit length)
+    std::vector<Vec2> uvs; // texture coordinates: empty, or one a position
     std::vector<std::array<uint, 3>> triangles; // counter-clockwise seen from the normal's side
+    std::vector<MeshAttribute> attributes;
 };
 
 struct Sphere {
