@@ -13,6 +13,9 @@ SHARED_BEGIN
 #define LIGHT_DIRECTIONAL 5u // emission: irradiance across the direction (W/m^2)
 #define LIGHT_CONSTANT 6u    // emission: radiance from all directions (W/m^2/sr)
 
+// Whether paths can only start there, never arrive.
+#define LIGHT_IS_DELTA(type) ((type) == LIGHT_POINT || (type) == LIGHT_SPOT || (type) == LIGHT_DIRECTIONAL)
+
 typedef struct Light {
     uint type;
     uint primitive;    // of an area light: as in Hit

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -31,15 +32,18 @@ struct MeshAttribute {
 struct TriangleMesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals; // empty, or one a position (unit length)
-    std::vector<Vec2> uvs; // texture coordinates: empty, or one a position
+    std::vector<Vec2> uvs{}; // texture coordinates: empty, or one a position
     std::vector<std::array<uint, 3>> triangles; // counter-clockwise seen from the normal's side
-    std::vector<MeshAttribute> attributes;
+    std::vector<MeshAttribute> attributes{};
 };
 
 struct Sphere {
     Vec3 center;
     float radius = 1.0f;
     bool flip_normals = false;
+    Vec3 axis_x{1, 0, 0}; // of its texture coordinates, unit length
+    Vec3 axis_y{0, 1, 0};
+    Vec3 axis_z{0, 0, 1};
 };
 
 // centre + a * axis_u + b * axis_v, a^2 + b^2 <= 1; normal along axis_u x axis_v.
@@ -49,18 +53,85 @@ struct Disk {
     Vec3 axis_v;
 };
 
+// --- Textures -----------------------------------------------------------------
+
+// A value, or a texture (an index into Scene::textures) and a factor on it.
+struct ColorSource {
+    Vec3 value{1, 1, 1};
+    std::optional<uint> texture;
+
+    ColorSource() = default;
+    ColorSource(Vec3 color) : value(color) {}
+    ColorSource(float r, float g, float b) : value{r, g, b} {}
+    ColorSource(Vec3 factor, uint index) : value(factor), texture(index) {}
+};
+
+// The same for a number; a texture counts by its luminance.
+struct NumberSource {
+    float value = 1.0f;
+    std::optional<uint> texture;
+
+    NumberSource() = default;
+    NumberSource(float number) : value(number) {}
+    NumberSource(float factor, uint index) : value(factor), texture(index) {}
+};
+
+enum class TexelFormat { srgb8, linear8, half }; // as TEXELS_... of kernels/shared/texture.h
+enum class WrapMode { repeat, mirror, clamp };
+enum class TextureFilter { nearest, bilinear };
+
+// Rows from the top.
+struct TexelImage {
+    int width = 0;
+    int height = 0;
+    TexelFormat format = TexelFormat::srgb8;
+    std::vector<uint> texels; // a texel's one (8 bits) or two (half) words
+
+    std::size_t words_per_texel() const { return format == TexelFormat::half ? 2 : 1; }
+};
+
+struct BitmapTexture {
+    std::shared_ptr<const TexelImage> image;
+    WrapMode wrap = WrapMode::repeat;
+    TextureFilter filter = TextureFilter::bilinear;
+};
+
+struct CheckerboardTexture {
+    ColorSource colors[2];
+};
+
+struct AttributeTexture {
+    std::string name; // of a MeshAttribute; 0 where a shape has none
+};
+
+struct TextureDescription {
+    std::string id;
+    SourceLocation where;
+    std::array<float, 3> to_u{1, 0, 0}; // u' = to_u . (u, v, 1)
+    std::array<float, 3> to_v{0, 1, 0};
+    std::variant<BitmapTexture, CheckerboardTexture, AttributeTexture> model;
+};
+
 // --- Scattering ---------------------------------------------------------------
 
+// Of microfacets: root mean square slope times sqrt(2), along the texture's u and v.
+struct Roughness {
+    bool beckmann = false; // else Trowbridge and Reitz (GGX)
+    NumberSource alpha_u{0.0f};
+    NumberSource alpha_v{0.0f};
+};
+
 struct DiffuseBsdf {
-    Vec3 reflectance{0.5f, 0.5f, 0.5f};
+    ColorSource reflectance{0.5f, 0.5f, 0.5f};
 };
 
 struct DielectricBsdf {
     float int_ior = 1.5046f; // bk7
     float ext_ior = 1.000277f; // air
     bool thin = false;
-    Vec3 specular_reflectance{1, 1, 1};
-    Vec3 specular_transmittance{1, 1, 1};
+    ColorSource specular_reflectance;
+    ColorSource specular_transmittance;
+    std::optional<Roughness> roughness = std::nullopt; // never of a thin one
 };
 
 // eta and k relative to the exterior medium. eta = 0 and k = 1 (material "none")
@@ -68,10 +139,22 @@ struct DielectricBsdf {
 struct ConductorBsdf {
     Vec3 eta{0, 0, 0};
     Vec3 k{1, 1, 1};
-    Vec3 specular_reflectance{1, 1, 1};
+    ColorSource specular_reflectance;
+    std::optional<Roughness> roughness = std::nullopt;
 };
 
 struct NullBsdf {};
+
+// `nested` where the mask is opaque, else nothing at all.
+struct MaskBsdf {
+    NumberSource opacity{0.5f};
+    uint nested = 0; // index into Scene::bsdfs
+};
+
+struct BlendBsdf {
+    NumberSource weight{0.5f}; // of the second
+    uint nested[2] = {0, 0};
+};
 
 // Indices into Scene::bsdfs, neither of them a TwoSidedBsdf.
 struct TwoSidedBsdf {
@@ -82,7 +165,7 @@ struct TwoSidedBsdf {
 struct BsdfDescription {
     std::string id; // as in the file, may be empty
     SourceLocation where;
-    std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, NullBsdf, TwoSidedBsdf> model;
+    std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, NullBsdf, TwoSidedBsdf, MaskBsdf, BlendBsdf> model;
 };
 
 // --- Emitters -----------------------------------------------------------------
@@ -180,6 +263,7 @@ struct IntegratorRequest {
 
 struct Scene {
     std::string file;
+    std::vector<TextureDescription> textures;
     std::vector<BsdfDescription> bsdfs;
     std::vector<ShapeDescription> shapes;
     std::vector<EmitterDescription> emitters; // all but area emitters

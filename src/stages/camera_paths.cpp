@@ -2,9 +2,9 @@
 
 namespace sundog {
 
-CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler)
+CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, const BuildOptions& surface_options)
     : camera_(camera), count_(static_cast<std::size_t>(camera.crop_width) * static_cast<std::size_t>(camera.crop_height)),
-      filter_(device, std::vector{filter}, "pixel filter"), record_first_hits_(device, "record_first_hits", "Record first hits")
+      filter_(device, std::vector{filter}, "pixel filter"), record_first_hits_(device, "record_first_hits", "Record first hits", surface_options)
 {
     radiance = Buffer<Vec3>(device, count_, "radiance");
     BuildOptions options;
@@ -21,8 +21,7 @@ void CameraPaths::start(const DeviceScene& scene, PathPool& pool, SamplerKey key
 
 void CameraPaths::record_first_hits(const DeviceScene& scene, PathPool& pool, std::uint64_t iteration, Buffer<FirstHitPixel>& first_hits)
 {
-    const float inverse_iterations = 1.0f / static_cast<float>(iteration + 1);
-    record_first_hits_(count_, scene.surfaces(), pool.rays, pool.hits, camera_.position, static_cast<uint>(count_), inverse_iterations, first_hits);
+    record_first_hits_(count_, scene.surfaces(), pool.rays, pool.hits, camera_.position, static_cast<uint>(count_), static_cast<uint>(iteration), first_hits);
 }
 
 } // namespace sundog

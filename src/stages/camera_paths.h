@@ -11,7 +11,7 @@ namespace sundog {
 // One path a pixel of the crop.
 class CameraPaths {
 public:
-    CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler);
+    CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, const BuildOptions& surface_options = {});
 
     // Starts the pool's paths at the camera, finds their first hits, and clears `radiance`.
     void start(const DeviceScene& scene, PathPool& pool, SamplerKey key);

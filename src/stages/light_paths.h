@@ -16,7 +16,7 @@ struct PhotonTracerSettings {
 
 class PhotonTracer {
 public:
-    PhotonTracer(Device& device, const PhotonTracerSettings& settings);
+    PhotonTracer(Device& device, const DeviceScene& scene, const PhotonTracerSettings& settings);
 
     // Traces one iteration's light paths to their ends. Returns the number of photons stored.
     std::size_t trace(const DeviceScene& scene, PathPool& pool, SamplerKey key);

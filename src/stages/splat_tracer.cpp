@@ -9,7 +9,7 @@ SplatTracer::SplatTracer(Device& device, const DeviceScene& scene, std::size_t p
       splat_pixel_keys_(device, "splat_pixel_keys", "Find splat pixels"), add_splats_(device, "add_splats", "Add splats"), shadow_(device, scene, paths, false),
       deposits_(device, paths, "splat deposits"), splats_(device, "splats", paths)
 {
-    BuildOptions options;
+    BuildOptions options = scene.surface_options();
     use_sampler(options, sampler);
     emit_light_paths_ = Kernel(device, "emit_light_paths", "Emit light paths", options);
     shade_splat_path_ = Kernel(device, "shade_splat_path", "Shade splat paths", options);

@@ -93,17 +93,17 @@ TEST(FlatSceneBsdfs, RecordsKeepTheirModels)
     builder.shape(Sphere{}).emitter(lamp);
     const std::vector<Bsdf> bsdfs = flatten_scene(builder.scene).bsdfs;
     EXPECT_EQ(bsdfs[red].type, BSDF_DIFFUSE);
-    EXPECT_EQ(bsdfs[red].flags, 0u);
+    EXPECT_EQ(bsdfs[red].flags, BSDF_HAS_SMOOTH | BSDF_HAS_BROAD);
     EXPECT_EQ(bsdfs[glass].type, BSDF_DIELECTRIC);
     EXPECT_FLOAT_EQ(bsdfs[glass].eta, 1.25f);
-    EXPECT_EQ(bsdfs[glass].transmittance.x, 0.5f);
+    EXPECT_EQ(bsdfs[glass].transmittance.value.x, 0.5f);
     EXPECT_EQ(bsdfs[pane].type, BSDF_THIN_DIELECTRIC);
     EXPECT_EQ(bsdfs[metal].type, BSDF_CONDUCTOR);
     EXPECT_EQ(bsdfs[metal].k_rgb.y, 2.0f);
-    EXPECT_EQ(bsdfs[metal].reflectance.x, 0.9f);
+    EXPECT_EQ(bsdfs[metal].specular.value.x, 0.9f);
     EXPECT_EQ(bsdfs[both].type, BSDF_DIFFUSE) << "the front's record";
-    EXPECT_EQ(bsdfs[both].reflectance.x, 0.7f);
-    EXPECT_EQ(bsdfs[both].flags, BSDF_TWO_SIDED);
+    EXPECT_EQ(bsdfs[both].reflectance.value.x, 0.7f);
+    EXPECT_EQ(bsdfs[both].flags, BSDF_TWO_SIDED | BSDF_HAS_SMOOTH | BSDF_HAS_BROAD);
     EXPECT_EQ(bsdfs[both].back, metal);
 }
 
@@ -116,8 +116,8 @@ TEST(FlatSceneBsdfs, TwoSidedMayNameLaterOnes)
     builder.bsdf(DiffuseBsdf{{0.75f, 0, 0}});
     builder.shape(Sphere{}).emitter(lamp);
     const std::vector<Bsdf> bsdfs = flatten_scene(builder.scene).bsdfs;
-    EXPECT_EQ(bsdfs[both].reflectance.x, 0.25f);
-    EXPECT_EQ(bsdfs[bsdfs[both].back].reflectance.x, 0.75f);
+    EXPECT_EQ(bsdfs[both].reflectance.value.x, 0.25f);
+    EXPECT_EQ(bsdfs[bsdfs[both].back].reflectance.value.x, 0.75f);
 }
 
 TEST(FlatSceneCamera, TangentsReferToTheFullFilm)
