@@ -2,6 +2,7 @@
 // first_hits. One work-item a camera path. Used by every method, once an iteration.
 #include "math/hash.h"
 #include "scene/bsdf.h"
+#include "scene/camera_rays.h"
 #include "shared/film.h"
 #include "shared/path.h"
 
@@ -15,7 +16,7 @@ static inline float3 albedo_of(const Scattering* scattering)
     }
 }
 
-__kernel void record_first_hits(SURFACE_PARAMETERS, __global const Ray* restrict rays, __global const Hit* restrict hits, Vec3 camera_position, uint count,
+__kernel void record_first_hits(SURFACE_PARAMETERS, __global const Ray* restrict rays, __global const Hit* restrict hits, Camera camera, uint count,
                                 uint iteration, __global FirstHitPixel* restrict first_hits)
 {
     const uint path = get_global_id(0);
@@ -30,7 +31,7 @@ __kernel void record_first_hits(SURFACE_PARAMETERS, __global const Ray* restrict
         const Scattering scattering = scattering_at(&scene, &surface, unit_float(hash_uint(hash_uint(path) + iteration)));
         albedo = albedo_of(&scattering);
         normal = facing(surface.shading_normal, surface.outgoing);
-        depth = length(surface.position - unpack(camera_position));
+        depth = camera_distance(&camera, surface.position);
     }
     // Running means: x += (sample - x) / n.
     const float inverse_iterations = 1.0f / ((float)iteration + 1.0f);

@@ -107,8 +107,12 @@ Camera make_camera(const Sensor& sensor, const Film& film)
     camera.axis_x = sensor.axis_x;
     camera.axis_y = sensor.axis_y;
     camera.axis_z = sensor.axis_z;
-    camera.tan_half_x = std::tan(0.5f * sensor.fov_x);
-    camera.tan_half_y = camera.tan_half_x * static_cast<float>(film.height) / static_cast<float>(film.width);
+    const bool orthographic = sensor.projection == Projection::orthographic;
+    camera.kind = orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE;
+    camera.half_width = orthographic ? sensor.extent_x : std::tan(0.5f * sensor.fov_x);
+    camera.half_height = (orthographic ? sensor.extent_y : camera.half_width) * static_cast<float>(film.height) / static_cast<float>(film.width);
+    camera.shift_x = -2.0f * sensor.principal_offset_x * camera.half_width;
+    camera.shift_y = -2.0f * sensor.principal_offset_y * camera.half_height;
     camera.aperture_radius = sensor.aperture_radius;
     camera.focus_distance = sensor.focus_distance;
     camera.near_clip = sensor.near_clip;

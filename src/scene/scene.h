@@ -211,14 +211,21 @@ struct EmitterDescription {
 
 // --- Sensor and film ------------------------------------------------------------
 
+enum class Projection { perspective, orthographic };
+
 struct Sensor {
     SourceLocation where;
-    Vec3 position{0, 0, 0};
+    Projection projection = Projection::perspective;
+    Vec3 position{0, 0, 0}; // of the lens; orthographic: where the axis meets the film
     Vec3 axis_x{1, 0, 0}; // unit length; +x points to the image's left, as in Mitsuba
     Vec3 axis_y{0, 1, 0};
     Vec3 axis_z{0, 0, 1}; // viewing direction
-    float fov_x = 0.6911504f; // horizontal, of the full film (rad)
-    float near_clip = 1e-2f;
+    float fov_x = 0.6911504f; // perspective: horizontal, of the full film (rad)
+    float extent_x = 1.0f; // orthographic: half the width of the full film (scene units)
+    float extent_y = 1.0f; // and half the height that it had if it were as many pixels high as wide
+    float principal_offset_x = 0.0f; // from the film's centre to its left, in widths of the full film
+    float principal_offset_y = 0.0f; // and up, in heights: the axis meets the film there
+    float near_clip = 1e-2f; // along axis_z, as far_clip: nothing nearer shows or occludes
     float far_clip = 1e4f;
     float aperture_radius = 0.0f; // 0: pinhole
     float focus_distance = 0.0f; // along axis_z

@@ -8,6 +8,12 @@
 
 namespace sundog {
 
+// Specialises kernels that make camera rays or connect to the camera.
+inline void use_camera(BuildOptions& options, const Camera& camera)
+{
+    options.defines.emplace_back("CAMERA_KIND", std::to_string(camera.kind) + "u");
+}
+
 // One path a pixel of the crop.
 class CameraPaths {
 public:

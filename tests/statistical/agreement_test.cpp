@@ -125,6 +125,57 @@ TEST(Agreement, EveryEmitter)
     expect_agreement(scene, {request("path", 128), request("ptracer", 32), request("pppm", 32), request("sppm", 32)}, edge_bias);
 }
 
+// Into the box from its open side, off centre so that a mirrored or shifted image would show in the windows.
+Scene orthographic_box()
+{
+    Scene scene = cornell_box(size);
+    scene.sensor.projection = Projection::orthographic;
+    scene.sensor.position = {.15f, -.1f, 3.9f};
+    scene.sensor.extent_x = .8f;
+    scene.sensor.extent_y = .7f;
+    return scene;
+}
+
+TEST(Agreement, Orthographic)
+{
+    expect_agreement(orthographic_box(), {request("path", 64), request("ptracer", 16), request("pppm", 16)}, edge_bias);
+}
+
+TEST(Agreement, Telecentric)
+{
+    Scene scene = orthographic_box();
+    scene.sensor.aperture_radius = .15f;
+    scene.sensor.focus_distance = 3.5f;
+    expect_agreement(scene, {request("path", 64), request("ptracer", 16)}, edge_bias);
+}
+
+TEST(Agreement, PrincipalPointAndCrop)
+{
+    Scene scene = cornell_box(size);
+    scene.film.width = 48;
+    scene.film.height = 40;
+    scene.film.crop_x = 12;
+    scene.film.crop_y = 6;
+    scene.sensor.principal_offset_x = .05f;
+    scene.sensor.principal_offset_y = -.08f;
+    expect_agreement(scene, {request("path", 64), request("ptracer", 16)}, edge_bias);
+    scene.sensor.aperture_radius = .1f;
+    scene.sensor.focus_distance = 3.9f;
+    expect_agreement(scene, {request("path", 64), request("ptracer", 16)}, edge_bias);
+}
+
+// What is nearer than the near plane neither shows nor hides: a black card before the camera changes nothing.
+TEST(Agreement, NearPlaneBeyondACard)
+{
+    for (const bool orthographic : {false, true}) {
+        Scene scene = orthographic ? orthographic_box() : cornell_box(size);
+        const uint black = add_bsdf(scene, DiffuseBsdf{{0, 0, 0}});
+        scene.shapes.push_back(make_quad({-.3f, -1, 3.5f}, {.3f, -1, 3.5f}, {.3f, 1, 3.5f}, {-.3f, 1, 3.5f}, black));
+        scene.sensor.near_clip = .5f;
+        expect_agreement(scene, {request("path", 64), request("ptracer", 16)}, edge_bias);
+    }
+}
+
 TEST(Agreement, ThinLensAndWideFilter)
 {
     Scene scene = cornell_box(size);

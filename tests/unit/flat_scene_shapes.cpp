@@ -120,6 +120,26 @@ TEST(FlatSceneBsdfs, TwoSidedMayNameLaterOnes)
     EXPECT_EQ(bsdfs[bsdfs[both].back].reflectance.value.x, 0.75f);
 }
 
+TEST(FlatSceneCamera, OrthographicExtentsAndPrincipalPoint)
+{
+    Sensor sensor;
+    sensor.projection = Projection::orthographic;
+    sensor.extent_x = 4.0f;
+    sensor.extent_y = 3.0f;
+    sensor.principal_offset_x = 0.25f;
+    sensor.principal_offset_y = -0.5f;
+    Film film;
+    film.width = 200;
+    film.height = 50;
+    const Camera camera = make_camera(sensor, film);
+    EXPECT_EQ(camera.kind, CAMERA_ORTHOGRAPHIC);
+    EXPECT_EQ(camera.half_width, 4.0f);
+    EXPECT_EQ(camera.half_height, 0.75f); // of square pixels, a quarter as high as wide, were extents the same
+    EXPECT_EQ(camera.shift_x, -2.0f); // a quarter of the width of 8
+    EXPECT_EQ(camera.shift_y, 0.75f); // half the height of 1.5
+    EXPECT_EQ(make_camera(Sensor(), film).kind, CAMERA_PERSPECTIVE);
+}
+
 TEST(FlatSceneCamera, TangentsReferToTheFullFilm)
 {
     Sensor sensor;
@@ -137,8 +157,8 @@ TEST(FlatSceneCamera, TangentsReferToTheFullFilm)
     film.crop_width = 30;
     film.crop_height = 40;
     const Camera camera = make_camera(sensor, film);
-    EXPECT_NEAR(camera.tan_half_x, 1.0f, 1e-6f);
-    EXPECT_NEAR(camera.tan_half_y, 0.25f, 1e-6f);
+    EXPECT_NEAR(camera.half_width, 1.0f, 1e-6f);
+    EXPECT_NEAR(camera.half_height, 0.25f, 1e-6f);
     EXPECT_EQ(camera.aperture_radius, 0.25f);
     EXPECT_EQ(camera.focus_distance, 3.0f);
     EXPECT_EQ(camera.near_clip, 0.5f);
