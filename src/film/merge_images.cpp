@@ -25,7 +25,8 @@ const std::string* find_metadata(const Image& image, const std::string& name)
 const std::string& metadata(const Image& image, const std::string& name, const std::filesystem::path& file)
 {
     if (const std::string* value = find_metadata(image, name)) return *value;
-    throw FileError(fmt::format("{}: cannot be merged, it has no metadata sundog:{}; parts are .exr files as sundog render writes them", file.string(), name));
+    throw FileError(
+        fmt::format("{}: cannot be merged, it has no metadata sundog:{}; parts are .exr files as sundog render writes them", file.string(), name));
 }
 
 template <class Number> Number number(const Image& image, const std::string& name, const std::filesystem::path& file)
@@ -86,17 +87,14 @@ void ImageMerger::start(const Image& part, const std::filesystem::path& file)
 
 void ImageMerger::check_like_first(const Image& part, const std::filesystem::path& file) const
 {
-    const auto refuse = [&](const std::string& what, const std::string& here, const std::string& there) {
-        throw FileError(fmt::format("{}: cannot be merged, its {} {} but that of {} {}", file.string(), what, here, first_file_.string(), there));
-    };
     const auto same = [&](const std::string& what, const std::string& here, const std::string& there) {
-        if (here != there) refuse(what, "is " + here, "is " + there);
+        if (here == there) return;
+        throw FileError(fmt::format("{}: cannot be merged, its {} is {} but that of {} is {}", file.string(), what, here, first_file_.string(), there));
     };
     same("size", fmt::format("{}x{}", part.width, part.height), fmt::format("{}x{}", first_.width, first_.height));
-    if (part.channels != first_.channels) refuse("list of channels", fmt::format("is {}", fmt::join(part.channels, " ")), fmt::format("is {}", fmt::join(first_.channels, " ")));
+    same("list of channels", fmt::format("{}", fmt::join(part.channels, " ")), fmt::format("{}", fmt::join(first_.channels, " ")));
     same("method", metadata(part, "method", file), metadata(first_, "method", first_file_));
-    if (const std::string here = parameters_of(part, file), there = parameters_of(first_, first_file_); here != there)
-        refuse("list of parameters", "is " + here, "is " + there);
+    same("list of parameters", parameters_of(part, file), parameters_of(first_, first_file_));
     if (metadata(part, "scene", file) != metadata(first_, "scene", first_file_))
         throw FileError(fmt::format("{}: cannot be merged, it shows another scene, or another camera or filter, than {}", file.string(), first_file_.string()));
 }
@@ -106,7 +104,8 @@ void ImageMerger::add_seeds(const Image& part, const std::filesystem::path& file
     for (const std::string& seed : words(metadata(part, "seed", file))) {
         const auto [other, is_new] = file_of_seed_.emplace(seed, file);
         if (!is_new)
-            throw FileError(fmt::format("{}: cannot be merged, it was rendered with seed {}, as {} was: the same random numbers bring nothing new; render it with another --seed",
+            throw FileError(fmt::format("{}: cannot be merged, it was rendered with seed {}, as {} was: the same random numbers bring nothing new; "
+                                        "render it with another --seed",
                                         file.string(), seed, other->second.string()));
         seeds_ += (seeds_.empty() ? "" : " ") + seed;
     }
@@ -131,7 +130,8 @@ void ImageMerger::add_pixels(const Image& part, double iterations, const std::fi
         const std::size_t channel = i % channels;
         if (!std::isfinite(part.pixels[i])) {
             const std::size_t pixel = i / channels, width = static_cast<std::size_t>(part.width);
-            throw FileError(fmt::format("{}: cannot be merged, {} of pixel ({}, {}) is {}", file.string(), part.channels[channel], pixel % width, pixel / width, part.pixels[i]));
+            throw FileError(fmt::format("{}: cannot be merged, {} of pixel ({}, {}) is {}", file.string(), part.channels[channel], pixel % width,
+                                        pixel / width, part.pixels[i]));
         }
         if (is_variance_[channel]) continue;
         const double difference = part.pixels[i] - means_[i];

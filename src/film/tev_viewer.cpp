@@ -106,7 +106,8 @@ public:
         addrinfo hints = {};
         hints.ai_socktype = SOCK_STREAM;
         addrinfo* found = nullptr;
-        if (const int error = ::getaddrinfo(host.c_str(), port.c_str(), &hints, &found)) throw std::runtime_error(std::string("cannot find the host: ") + ::gai_strerror(error));
+        if (const int error = ::getaddrinfo(host.c_str(), port.c_str(), &hints, &found))
+            throw std::runtime_error(std::string("cannot find the host: ") + ::gai_strerror(error));
         const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> addresses(found, &::freeaddrinfo);
         int error = 0;
         for (const addrinfo* address = found; address; address = address->ai_next)

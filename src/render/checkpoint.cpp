@@ -89,7 +89,8 @@ RenderProgress progress_of_same_render(const std::string& text, const RenderIden
         json.at("stage_seconds").get_to(progress.stage_seconds);
         return progress;
     } catch (const nlohmann::json::exception& error) {
-        throw FileError(fmt::format("{}: cannot resume, the checkpoint does not describe its render ({}); render afresh without --resume", file.string(), error.what()));
+        throw FileError(fmt::format("{}: cannot resume, the checkpoint does not describe its render ({}); render afresh without --resume", file.string(),
+                                    error.what()));
     }
 }
 

@@ -183,7 +183,8 @@ void RenderSession::resume(const std::filesystem::path& file)
     state_->seconds = state_->resumed.seconds;
     const std::string& device = state_->device.info().name;
     if (state_->resumed.device != device)
-        log_warning(fmt::format("{} was rendered on {}; going on with {} is as good, but not the same to the last bit", file.string(), state_->resumed.device, device));
+        log_warning(fmt::format("{} was rendered on {}; going on with {} is as good, but not the same to the last bit", file.string(),
+                                state_->resumed.device, device));
 }
 
 Image RenderSession::image() const

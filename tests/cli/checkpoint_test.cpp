@@ -55,7 +55,8 @@ TEST_F(CliCheckpoint, an_interrupted_render_saves_one)
 {
     for (int signal : {SIGINT, SIGTERM}) {
         const Interruption soon{[](const std::string& err) { return std::count(err.begin(), err.end(), '\n') >= 3; }, signal};
-        const Outcome outcome = render({"-n", "1000000000", "-m", "sppm", "--checkpoint", "c", "-o", "a.pfm", "--stats", "s.json", "--progress", "json"}, soon);
+        const Outcome outcome =
+            render({"-n", "1000000000", "-m", "sppm", "--checkpoint", "c", "-o", "a.pfm", "--stats", "s.json", "--progress", "json"}, soon);
         EXPECT_EQ(outcome.status, 130) << outcome.err;
         const std::uint64_t done = stats()["iterations"];
         EXPECT_EQ(saved_iterations(), done);
@@ -70,12 +71,33 @@ TEST_F(CliCheckpoint, an_interrupted_render_saves_one)
 TEST_F(CliCheckpoint, a_killed_render_leaves_the_last_one)
 {
     const Interruption once_saved{[this](const std::string&) { return std::filesystem::exists(folder / "c"); }, SIGKILL};
-    const Outcome outcome = render({"-n", "1000000000", "-m", "pppm", "--checkpoint", "c", "--checkpoint-every", "0.05", "-o", "a.pfm", "--progress", "json"}, once_saved);
+    const Outcome outcome = render(
+        {"-n", "1000000000", "-m", "pppm", "--checkpoint", "c", "--checkpoint-every", "0.05", "-o", "a.pfm", "--progress", "json"}, once_saved);
     EXPECT_EQ(outcome.status, 128 + SIGKILL);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.pfm"));
     const std::string more = std::to_string(saved_iterations() + 2);
     expect_done(render({"-n", more, "-m", "pppm", "--checkpoint", "c", "--resume", "-o", "a.pfm"}));
     EXPECT_TRUE(read("a.pfm") == whole(more, {"-m", "pppm"}));
+}
+
+// The folder goes away while the render runs: the image must not be lost for that.
+TEST_F(CliCheckpoint, one_that_cannot_be_saved_does_not_stop_the_render)
+{
+    std::filesystem::create_directory(folder / "sub");
+    bool moved = false;
+    const Interruption never{[&](const std::string&) {
+        if (!moved && std::filesystem::exists(folder / "sub" / "c")) {
+            std::filesystem::rename(folder / "sub", folder / "elsewhere");
+            moved = true;
+        }
+        return false;
+    }};
+    const Outcome outcome = render({"-t", "2", "--checkpoint", "sub/c", "--checkpoint-every", "0.2", "-o", "a.pfm", "--progress", "json"}, never);
+    EXPECT_TRUE(moved);
+    EXPECT_EQ(outcome.status, 5);
+    EXPECT_THAT(outcome.err, HasSubstr("sundog: warning: no checkpoint now: sub/c: "));
+    EXPECT_THAT(outcome.err, HasSubstr("sundog: error: sub/c: cannot write, there is no folder sub"));
+    EXPECT_THAT(files(), ::testing::ElementsAre("a.pfm", "elsewhere", "scene.xml"));
 }
 
 TEST_F(CliCheckpoint, without_a_file_the_render_starts_afresh)

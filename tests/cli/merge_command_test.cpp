@@ -13,7 +13,8 @@ class CliMerge : public InFolder {
 protected:
     CliMerge() { write("scene.xml", SmallScene{}.xml()); }
 
-    void render(const std::string& file, const std::string& seed, const std::string& iterations, const std::string& method = "path", const std::string& size = "16x12") const
+    void render(const std::string& file, const std::string& seed, const std::string& iterations, const std::string& method = "path",
+                const std::string& size = "16x12") const
     {
         const Outcome outcome = run({"render", "scene.xml", "-m", method, "-s", seed, "-n", iterations, "--size", size, "-o", file, "-q"});
         EXPECT_EQ(outcome.status, 0) << outcome.err;

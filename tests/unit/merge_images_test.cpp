@@ -43,9 +43,16 @@ Image image_of(const Samples& samples, const std::string& seed)
         pixel[3 + i % 3] = static_cast<float>(n > 1 ? squares / (n - 1) : 0.0);
         if (i % 3 == 0) pixel[6] = static_cast<float>(mean);
     }
-    image.metadata = {{"sundog:version", "0"},   {"sundog:method", "path"},          {"sundog:parameters", "max_depth=4 iterations=" + std::to_string(samples.size()) + " sampler=sobol"},
-                      {"sundog:scene", "abc"},   {"sundog:seed", seed},              {"sundog:iterations", std::to_string(samples.size())},
-                      {"sundog:light_subpaths", "5000000000"}, {"sundog:camera_subpaths", "7"}, {"sundog:device", "some device"},
+    const std::string iterations = std::to_string(samples.size());
+    image.metadata = {{"sundog:version", "0"},
+                      {"sundog:method", "path"},
+                      {"sundog:parameters", "max_depth=4 iterations=" + iterations + " sampler=sobol"},
+                      {"sundog:scene", "abc"},
+                      {"sundog:seed", seed},
+                      {"sundog:iterations", iterations},
+                      {"sundog:light_subpaths", "5000000000"},
+                      {"sundog:camera_subpaths", "7"},
+                      {"sundog:device", "some device"},
                       {"sundog:seconds", "1.500"}};
     return image;
 }
@@ -97,8 +104,9 @@ TEST(MergeImages, totals_are_summed_and_seeds_listed)
     const auto metadata = merger.result().metadata;
     using ::testing::Pair;
     EXPECT_THAT(metadata, ::testing::IsSupersetOf({Pair("sundog:seed", "5 9 18446744073709551615"), Pair("sundog:iterations", "5"),
-                                                   Pair("sundog:light_subpaths", "10000000000"), Pair("sundog:camera_subpaths", "14"), Pair("sundog:seconds", "3.000"),
-                                                   Pair("sundog:device", "some device, another device"), Pair("sundog:method", "path"), Pair("sundog:scene", "abc")}));
+                                                   Pair("sundog:light_subpaths", "10000000000"), Pair("sundog:camera_subpaths", "14"),
+                                                   Pair("sundog:seconds", "3.000"), Pair("sundog:device", "some device, another device"),
+                                                   Pair("sundog:method", "path"), Pair("sundog:scene", "abc")}));
 }
 
 // The message of adding `change`d to a part with seed 1.
@@ -119,10 +127,12 @@ template <class Change> std::string refusal(Change change)
 
 TEST(MergeImages, parts_that_do_not_belong_together_are_refused)
 {
-    EXPECT_THAT(refusal([](Image& b) { set(b, "sundog:seed", "1"); }), HasSubstr("b.exr: cannot be merged, it was rendered with seed 1, as a.exr was: the same random numbers"));
+    EXPECT_THAT(refusal([](Image& b) { set(b, "sundog:seed", "1"); }),
+                HasSubstr("b.exr: cannot be merged, it was rendered with seed 1, as a.exr was: the same random numbers"));
     EXPECT_THAT(refusal([](Image& b) { set(b, "sundog:seed", "3 1"); }), HasSubstr("with seed 1, as a.exr was"));
     EXPECT_THAT(refusal([](Image& b) { set(b, "sundog:method", "sppm"); }), HasSubstr("its method is sppm but that of a.exr is path"));
-    EXPECT_THAT(refusal([](Image& b) { set(b, "sundog:parameters", "max_depth=5 iterations=3 sampler=sobol"); }), HasSubstr("is max_depth=5 sampler=sobol but that of a.exr is max_depth=4 sampler=sobol"));
+    EXPECT_THAT(refusal([](Image& b) { set(b, "sundog:parameters", "max_depth=5 iterations=3 sampler=sobol"); }),
+                HasSubstr("is max_depth=5 sampler=sobol but that of a.exr is max_depth=4 sampler=sobol"));
     EXPECT_THAT(refusal([](Image& b) { set(b, "sundog:scene", "abd"); }), HasSubstr("another scene"));
     EXPECT_THAT(refusal([](Image& b) { set(b, "sundog:iterations", "0"); }), HasSubstr("it has no iterations"));
     EXPECT_THAT(refusal([](Image& b) { set(b, "sundog:iterations", "-3"); }), HasSubstr("sundog:iterations is no number"));
