@@ -36,6 +36,8 @@ public:
 
     MethodCounters counters() const override { return {0, context_.film.iterations() * camera_.count(), 0, pool_.rays_traced()}; }
 
+    void serialize(StateArchive& archive) override { pool_.serialize(archive); }
+
 private:
     RenderContext& context_;
     PathRules rules_;

@@ -41,6 +41,14 @@ void PhotonPass::trace(std::uint64_t iteration, float radius)
     iterations_++;
 }
 
+void PhotonPass::serialize(StateArchive& archive)
+{
+    archive.value("photon iterations", iterations_);
+    archive.value("photons stored", photons_stored_);
+    pool_.serialize(archive);
+    photons_.serialize(archive);
+}
+
 MethodCounters PhotonPass::counters() const
 {
     return {iterations_ * light_paths_, iterations_ * camera.count(), photons_stored_, pool_.rays_traced()};

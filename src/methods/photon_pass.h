@@ -25,6 +25,7 @@ public:
     std::size_t light_paths() const { return light_paths_; }
     std::size_t pixels() const { return camera.count(); }
     MethodCounters counters() const;
+    void serialize(StateArchive& archive);
 
 private:
     RenderContext& context_;

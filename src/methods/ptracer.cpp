@@ -38,6 +38,12 @@ public:
         return {iterations * light_paths_, iterations * camera_.count(), 0, pool_.rays_traced()};
     }
 
+    void serialize(StateArchive& archive) override
+    {
+        pool_.serialize(archive);
+        splats_.serialize(archive);
+    }
+
 private:
     RenderContext& context_;
     std::size_t light_paths_;

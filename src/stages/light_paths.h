@@ -23,6 +23,8 @@ public:
 
     const RecordList<Photon>& photons() const { return photons_; }
 
+    void serialize(StateArchive& archive) { photons_.serialize(archive); }
+
 private:
     void trace_once(const DeviceScene& scene, PathPool& pool, SamplerKey key);
 

@@ -18,6 +18,8 @@ public:
     // sorted by pixel and added in path order: the same bits every time.
     void trace(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, SamplerKey key);
 
+    void serialize(StateArchive& archive) { splats_.serialize(archive); }
+
 private:
     void trace_once(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, SamplerKey key);
     void reserve_sort();
