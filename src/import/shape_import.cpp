@@ -2,6 +2,7 @@
 
 #include "import/emitter_import.h"
 #include "import/mesh_import.h"
+#include "import/mesh_parts.h"
 
 #include <map>
 
@@ -40,25 +41,27 @@ Disk import_disk(ObjectReader& reader)
     return disk;
 }
 
-// The triangles of one material, with the vertices that they use.
-TriangleMesh extract(const ObjFile& obj, int material)
+// Shapes that Mitsuba has and Sundog does not, each with the way around it.
+[[noreturn]] void refuse_by_name(const ObjectReader& reader)
 {
-    TriangleMesh part;
-    std::map<uint, uint> renumbered;
-    for (std::size_t i = 0; i < obj.mesh.triangles.size(); i++) {
-        if (obj.material_of_triangle[i] != material) continue;
-        std::array<uint, 3> triangle{};
-        for (std::size_t k = 0; k < 3; k++) {
-            const uint vertex = obj.mesh.triangles[i][k];
-            const auto [entry, added] = renumbered.emplace(vertex, static_cast<uint>(part.positions.size()));
-            triangle[k] = entry->second;
-            if (!added) continue;
-            part.positions.push_back(obj.mesh.positions[vertex]);
-            if (!obj.mesh.normals.empty()) part.normals.push_back(obj.mesh.normals[vertex]);
-        }
-        part.triangles.push_back(triangle);
-    }
-    return part;
+    constexpr const char* as_mesh = "convert it to a mesh (ply or obj)";
+    constexpr const char* as_copies = "give each copy a shape of its own, with the to_world of its instance";
+    static const std::map<std::string, const char*> cures = {
+        {"heightfield", as_mesh},
+        {"hair", "make tubes of the strands, as a mesh (ply or obj)"},
+        {"bsplinecurve", "make tubes of the curves, as a mesh (ply or obj)"},
+        {"linearcurve", "make tubes of the curves, as a mesh (ply or obj)"},
+        {"sdfgrid", "extract the surface at distance zero as a mesh (ply or obj)"},
+        {"ellipsoids", as_mesh},
+        {"ellipsoidsmesh", as_mesh},
+        {"deformable", "save the mesh of the wanted instant (ply or obj)"},
+        {"shapegroup", as_copies},
+        {"instance", as_copies},
+        {"merge", "put its shapes into the scene themselves"},
+    };
+    const auto cure = cures.find(reader.type());
+    if (cure != cures.end()) throw SceneError(reader.where(), "shape plugin '" + cure->first + "' is not supported: " + cure->second);
+    reader.unsupported("obj, ply, rectangle, cube, sphere, disk");
 }
 
 class ShapeImport
@@ -95,7 +98,7 @@ private:
         if (type == "cube") return import_cube(reader_);
         if (type == "sphere") return import_sphere(reader_);
         if (type == "disk") return import_disk(reader_);
-        reader_.unsupported("obj, ply, rectangle, cube, sphere, disk");
+        refuse_by_name(reader_);
     }
 
     void add_obj_with_materials()
@@ -105,11 +108,12 @@ private:
             add(std::move(obj.mesh), default_bsdf());
             return;
         }
-        for (int i = -1; i < static_cast<int>(obj.materials.size()); i++) {
-            TriangleMesh part = extract(obj, i);
-            if (!part.triangles.empty())
-                add(std::move(part), i < 0 ? default_bsdf() : obj_bsdf(obj.materials[static_cast<std::size_t>(i)]));
-        }
+        std::map<int, std::vector<uint>> triangles; // of each material; -1 for those without one
+        for (std::size_t i = 0; i < obj.material_of_triangle.size(); i++)
+            triangles[obj.material_of_triangle[i]].push_back(static_cast<uint>(i));
+        for (const auto& [material, wanted] : triangles)
+            add(extract_triangles(obj.mesh, wanted),
+                material < 0 ? default_bsdf() : obj_bsdf(obj.materials[static_cast<std::size_t>(material)]));
     }
 
     uint obj_bsdf(const ObjMaterial& material)
