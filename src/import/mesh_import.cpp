@@ -3,6 +3,7 @@
 #include "import/mesh_cleanup.h"
 #include "import/mesh_normals.h"
 #include "import/ply.h"
+#include "import/serialized.h"
 
 #include <numbers>
 
@@ -109,6 +110,17 @@ TriangleMesh import_ply(ObjectReader& reader)
     std::vector<int> none;
     finish_file_mesh(reader, ply, none, path);
     return std::move(ply.mesh);
+}
+
+TriangleMesh import_serialized(ObjectReader& reader)
+{
+    const auto path = find_mesh_file(reader);
+    const int index = shape_index(reader).value_or(0);
+    const SourceLocation wanted_at = index > 0 ? reader.where_of("shape_index") : reader.where_of("filename");
+    MeshFile file = load_serialized(path, wanted_at, index);
+    std::vector<int> none;
+    finish_file_mesh(reader, file, none, path);
+    return std::move(file.mesh);
 }
 
 TriangleMesh import_rectangle(ObjectReader& reader)

@@ -61,7 +61,7 @@ Disk import_disk(ObjectReader& reader)
     };
     const auto cure = cures.find(reader.type());
     if (cure != cures.end()) throw SceneError(reader.where(), "shape plugin '" + cure->first + "' is not supported: " + cure->second);
-    reader.unsupported("obj, ply, rectangle, cube, sphere, disk");
+    reader.unsupported("obj, ply, serialized, rectangle, cube, sphere, disk");
 }
 
 class ShapeImport
@@ -94,6 +94,7 @@ private:
     {
         if (type == "obj") return import_obj(reader_, false).mesh;
         if (type == "ply") return import_ply(reader_);
+        if (type == "serialized") return import_serialized(reader_);
         if (type == "rectangle") return import_rectangle(reader_);
         if (type == "cube") return import_cube(reader_);
         if (type == "sphere") return import_sphere(reader_);
