@@ -50,6 +50,13 @@ static inline void analytic_surface(const SurfaceView* scene, Hit hit, float3 po
         surface->position = center + outwards * primitive.radius; // back onto the sphere
         surface->geometric_normal = (scene->shapes[primitive.shape].flags & SHAPE_FLIP_NORMALS) ? -outwards : outwards;
         surface->offset = OFFSET_PER_COORDINATE * (max_abs(center) + primitive.radius);
+    } else if (primitive.kind == ANALYTIC_CYLINDER) {
+        const float3 axis = unpack(primitive.normal);
+        const float height = dot(point - center, axis);
+        const float3 outwards = normalize(point - center - axis * height);
+        surface->position = center + axis * clamp(height, 0.0f, primitive.length) + outwards * primitive.radius;
+        surface->geometric_normal = (scene->shapes[primitive.shape].flags & SHAPE_FLIP_NORMALS) ? -outwards : outwards;
+        surface->offset = OFFSET_PER_COORDINATE * (max_abs(center) + primitive.radius + primitive.length);
     } else {
         const float3 normal = unpack(primitive.normal);
         surface->position = point - normal * dot(point - center, normal);

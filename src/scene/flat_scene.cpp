@@ -90,6 +90,9 @@ struct ShapeFlattener {
         primitive.kind = ANALYTIC_SPHERE;
         primitive.center = sphere.center;
         primitive.radius = sphere.radius;
+        primitive.axis_u = sphere.axis_x;
+        primitive.axis_v = sphere.axis_y;
+        primitive.normal = sphere.axis_z;
         add(primitive);
     }
 
@@ -100,7 +103,21 @@ struct ShapeFlattener {
         primitive.center = disk.center;
         primitive.axis_u = disk.axis_u;
         primitive.axis_v = disk.axis_v;
-        primitive.normal = normalize(cross(disk.axis_u, disk.axis_v));
+        primitive.normal = disk.normal();
+        add(primitive);
+    }
+
+    void operator()(const Cylinder& cylinder) const
+    {
+        if (cylinder.flip_normals) shape.flags |= SHAPE_FLIP_NORMALS;
+        AnalyticPrimitive primitive{};
+        primitive.kind = ANALYTIC_CYLINDER;
+        primitive.center = cylinder.start;
+        primitive.radius = cylinder.radius;
+        primitive.length = cylinder.length;
+        primitive.axis_u = cylinder.axis_x;
+        primitive.axis_v = cylinder.axis_y;
+        primitive.normal = cylinder.axis_z;
         add(primitive);
     }
 

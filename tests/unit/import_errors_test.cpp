@@ -182,6 +182,12 @@ const std::vector<Broken> broken_scenes = {
     {"DarkLight", 0, "no light",
      "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><shape type=\"cube\"><emitter type=\"area\"><rgb name=\"radiance\" "
      "value=\"0\"/></emitter></shape></scene>"},
+    {"CylinderWithoutLength", 2, "two different end points", scene("<shape type=\"cylinder\"><point name=\"p1\" x=\"0\"/></shape>")},
+    {"EllipticCylinder", 3, "scale evenly across the axis",
+     scene("<shape type=\"cylinder\">\n<transform name=\"to_world\"><scale x=\"2\"/></transform></shape>")},
+    {"ObliqueCylinder", 3, "use a mesh",
+     scene("<shape type=\"cylinder\">\n<transform name=\"to_world\"><matrix value=\"1 0 1 0 0 1 0 0 0 0 1 0 0 0 0 1\"/></transform></shape>")},
+    {"CylinderRadius", 2, "'radius'", scene("<shape type=\"cylinder\"><float name=\"radius\" value=\"0\"/></shape>")},
     // Meshes
     {"MissingMesh", 3, "tried", scene("<shape type=\"obj\">\n<string name=\"filename\" value=\"nowhere.obj\"/></shape>")},
     {"MeshWithoutName", 2, "filename", scene("<shape type=\"ply\"/>")},
