@@ -34,7 +34,7 @@ public:
     // `count` values, of which memory for a block at a time is taken as they turn out to be there.
     template <class T> std::vector<T> values(std::size_t count)
     {
-        constexpr std::size_t block = std::size_t{1} << 20;
+        constexpr std::size_t block = std::size_t{1} << 16;
         std::vector<T> all;
         while (all.size() < count) {
             const std::size_t done = all.size();
