@@ -60,7 +60,8 @@ static inline float turn_of(float x, float y)
     return turn < 0.0f ? turn + 1.0f : turn;
 }
 
-// Mitsuba's parametrisations. Sphere: (azimuth, polar angle) as fractions of 2 pi and pi; disk: (radius, azimuth).
+// Mitsuba's parametrisations. Sphere: (azimuth, polar angle) as fractions of 2 pi and pi; cylinder: (azimuth, height);
+// disk: (radius, azimuth).
 static inline void analytic_uv(const AnalyticPrimitive* primitive, Surface* surface)
 {
     const float3 axis_u = unpack(primitive->axis_u), axis_v = unpack(primitive->axis_v), axis_n = unpack(primitive->normal);
@@ -74,6 +75,13 @@ static inline void analytic_uv(const AnalyticPrimitive* primitive, Surface* surf
         const float2 around = sine > 1e-6f ? (float2)(x, y) / sine : (float2)(1.0f, 0.0f);
         surface->dpdu = (axis_v * around.x - axis_u * around.y) * (2.0f * 3.14159265358979f * primitive->radius * fmax(sine, 1e-6f));
         surface->dpdv = ((axis_u * around.x + axis_v * around.y) * z - axis_n * sine) * (3.14159265358979f * primitive->radius);
+        return;
+    }
+    if (primitive->kind == ANALYTIC_CYLINDER) {
+        const float x = dot(local_position, axis_u), y = dot(local_position, axis_v);
+        surface->uv = (float2)(turn_of(x, y), dot(local_position, axis_n) / primitive->length);
+        surface->dpdu = (axis_v * x - axis_u * y) * (2.0f * 3.14159265358979f);
+        surface->dpdv = axis_n * primitive->length;
         return;
     }
     const float x = dot(local_position, axis_u) / dot(axis_u, axis_u), y = dot(local_position, axis_v) / dot(axis_v, axis_v);
@@ -118,6 +126,13 @@ static inline void analytic_surface(const SurfaceView* scene, Hit hit, float3 po
         surface->position = center + outwards * primitive.radius; // back onto the sphere
         surface->geometric_normal = (scene->shapes[primitive.shape].flags & SHAPE_FLIP_NORMALS) ? -outwards : outwards;
         surface->offset = OFFSET_PER_COORDINATE * (max_abs(center) + primitive.radius);
+    } else if (primitive.kind == ANALYTIC_CYLINDER) {
+        const float3 axis = unpack(primitive.normal);
+        const float height = dot(point - center, axis);
+        const float3 outwards = normalize(point - center - axis * height);
+        surface->position = center + axis * clamp(height, 0.0f, primitive.length) + outwards * primitive.radius;
+        surface->geometric_normal = (scene->shapes[primitive.shape].flags & SHAPE_FLIP_NORMALS) ? -outwards : outwards;
+        surface->offset = OFFSET_PER_COORDINATE * (max_abs(center) + primitive.radius + primitive.length);
     } else {
         const float3 normal = unpack(primitive.normal);
         surface->position = point - normal * dot(point - center, normal);

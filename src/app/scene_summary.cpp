@@ -14,6 +14,7 @@ namespace {
 const char* kind(const TriangleMesh&) { return "mesh"; }
 const char* kind(const Sphere&) { return "sphere"; }
 const char* kind(const Disk&) { return "disk"; }
+const char* kind(const Cylinder&) { return "cylinder"; }
 const char* kind(const DiffuseBsdf&) { return "diffuse"; }
 const char* kind(const DielectricBsdf& bsdf) { return bsdf.thin ? "thindielectric" : bsdf.roughness ? "roughdielectric" : "dielectric"; }
 const char* kind(const ConductorBsdf& bsdf) { return bsdf.roughness ? "roughconductor" : "conductor"; }

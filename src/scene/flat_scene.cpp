@@ -53,7 +53,21 @@ struct ShapeFlattener {
         primitive.center = disk.center;
         primitive.axis_u = disk.axis_u;
         primitive.axis_v = disk.axis_v;
-        primitive.normal = normalize(cross(disk.axis_u, disk.axis_v));
+        primitive.normal = disk.normal();
+        add(primitive);
+    }
+
+    void operator()(const Cylinder& cylinder) const
+    {
+        if (cylinder.flip_normals) shape.flags |= SHAPE_FLIP_NORMALS;
+        AnalyticPrimitive primitive{};
+        primitive.kind = ANALYTIC_CYLINDER;
+        primitive.center = cylinder.start;
+        primitive.radius = cylinder.radius;
+        primitive.length = cylinder.length;
+        primitive.axis_u = cylinder.axis_x;
+        primitive.axis_v = cylinder.axis_y;
+        primitive.normal = cylinder.axis_z;
         add(primitive);
     }
 

@@ -46,11 +46,26 @@ struct Sphere {
     Vec3 axis_z{0, 0, 1};
 };
 
-// centre + a * axis_u + b * axis_v, a^2 + b^2 <= 1; normal along axis_u x axis_v.
+// centre + a * axis_u + b * axis_v, a^2 + b^2 <= 1; normal along axis_u x axis_v unless flipped.
 struct Disk {
     Vec3 center;
     Vec3 axis_u;
     Vec3 axis_v;
+    bool flip_normals = false;
+
+    Vec3 normal() const; // unit length
+};
+
+// Open at both ends; normals away from the axis unless flipped. The axes are of unit length and orthogonal; x and y are
+// those of its texture coordinates.
+struct Cylinder {
+    Vec3 start; // of the axis, which is along axis_z
+    float radius = 1.0f;
+    float length = 1.0f;
+    bool flip_normals = false;
+    Vec3 axis_x{1, 0, 0};
+    Vec3 axis_y{0, 1, 0};
+    Vec3 axis_z{0, 0, 1};
 };
 
 // --- Textures -----------------------------------------------------------------
@@ -177,7 +192,7 @@ struct AreaEmitter {
 struct ShapeDescription {
     std::string id;
     SourceLocation where;
-    std::variant<TriangleMesh, Sphere, Disk> geometry;
+    std::variant<TriangleMesh, Sphere, Disk, Cylinder> geometry;
     uint bsdf = 0; // index into Scene::bsdfs
     std::optional<AreaEmitter> emitter;
 };

@@ -74,6 +74,48 @@ TEST(FlatSceneShapes, NormalsStayBesideTheirPositions)
     EXPECT_TRUE(flatten_scene(SceneBuilder().shape(plain(0)).emitter(lamp).scene).normals.empty());
 }
 
+TEST(FlatSceneShapes, CylindersDisksAndSpheresKeepTheirAxes)
+{
+    const Cylinder cylinder{.start = {1, 2, 3}, .radius = 0.5f, .length = 4, .flip_normals = true, .axis_x = {0, 1, 0}, .axis_y = {0, 0, 1}, .axis_z = {1, 0, 0}};
+    Sphere sphere{{0, 0, 0}, 1.0f};
+    sphere.axis_x = {0, 0, 1};
+    sphere.axis_z = {-1, 0, 0};
+    const FlatScene flat = flatten_scene(SceneBuilder()
+                                             .light(cylinder, {1, 1, 1})
+                                             .shape(Disk{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, true})
+                                             .shape(sphere)
+                                             .scene);
+    const AnalyticPrimitive& tube = flat.analytics.at(0);
+    EXPECT_EQ(tube.kind, ANALYTIC_CYLINDER);
+    EXPECT_EQ(tube.center, (Vec3{1, 2, 3}));
+    EXPECT_EQ(tube.length, 4.0f);
+    EXPECT_EQ(tube.radius, 0.5f);
+    EXPECT_EQ(tube.normal, (Vec3{1, 0, 0}));
+    EXPECT_EQ(tube.axis_u, (Vec3{0, 1, 0}));
+    EXPECT_EQ(flat.shapes[0].flags, SHAPE_FLIP_NORMALS);
+    EXPECT_EQ(flat.lights.at(0).type, LIGHT_CYLINDER);
+    EXPECT_NEAR(flat.lights[0].area, 2 * std::numbers::pi * 0.5 * 4, 1e-5);
+    EXPECT_EQ(flat.analytics.at(1).axis_u, (Vec3{2, 0, 0})) << "where texture coordinates begin";
+    EXPECT_EQ(flat.analytics[1].normal, (Vec3{0, 0, -1}));
+    EXPECT_EQ(flat.analytics.at(2).axis_u, (Vec3{0, 0, 1}));
+    EXPECT_EQ(flat.analytics[2].normal, (Vec3{-1, 0, 0}));
+}
+
+TEST(FlatSceneShapes, CylinderBoundsAreTight)
+{
+    const Vec3 axis = normalize(Vec3{1, 2, 2});
+    const Vec3 x = normalize(Vec3{2, -1, 0});
+    Scene scene = SceneBuilder().shape(Cylinder{.start = {1, 1, 1}, .radius = 0.5f, .length = 3, .axis_x = x, .axis_y = cross(axis, x), .axis_z = axis}).scene;
+    const Bounds bounds = scene.bounds();
+    // A circle of radius r reaches r sqrt(1 - a^2) along an axis that is at cosine a to its normal.
+    const float a[] = {1.0f / 3, 2.0f / 3, 2.0f / 3};
+    for (int k = 0; k < 3; ++k) {
+        const float reach = 0.5f * std::sqrt(1 - a[k] * a[k]);
+        EXPECT_NEAR(component(bounds.lower, k), 1 - reach, 1e-6f);
+        EXPECT_NEAR(component(bounds.upper, k), 1 + 3 * a[k] + reach, 1e-6f);
+    }
+}
+
 TEST(FlatSceneShapes, BoundingSphereHoldsEverything)
 {
     const FlatScene flat = flatten_scene(

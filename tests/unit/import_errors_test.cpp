@@ -120,6 +120,11 @@ const std::vector<Broken> broken_scenes = {
     {"OverflowingMesh", 2, "not finite", move("<translate x=\"1e39\"/>")},
     // Plugins and what they refuse
     {"UnknownShape", 2, "shape plugin 'teapot'", scene("<shape type=\"teapot\"/>")},
+    {"HeightField", 2, "heightfield' is not supported: convert it to a mesh", scene("<shape type=\"heightfield\"/>")},
+    {"Hair", 3, "hair' is not supported: make tubes", scene("\n<shape type=\"hair\"/>")},
+    {"Curve", 2, "make tubes of the curves", scene("<shape type=\"bsplinecurve\"/>")},
+    {"SignedDistances", 2, "extract the surface", scene("<shape type=\"sdfgrid\"/>")},
+    {"Instance", 2, "a shape of its own", scene("<shape type=\"instance\"/>")},
     {"ShapeWithoutType", 2, "attribute type", scene("<shape/>")},
     {"UnknownBsdf", 3, "bsdf plugin 'roughplastic' is not supported; supported are diffuse", bsdf("<bsdf type=\"roughplastic\"/>")},
     {"TwoBsdfs", 4, "only one <bsdf>", bsdf("<bsdf type=\"diffuse\"/>\n<bsdf type=\"diffuse\"/>")},
@@ -185,6 +190,12 @@ const std::vector<Broken> broken_scenes = {
     {"DarkLight", 0, "no light",
      "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><shape type=\"cube\"><emitter type=\"area\"><rgb name=\"radiance\" "
      "value=\"0\"/></emitter></shape></scene>"},
+    {"CylinderWithoutLength", 2, "two different end points", scene("<shape type=\"cylinder\"><point name=\"p1\" x=\"0\"/></shape>")},
+    {"EllipticCylinder", 3, "scale evenly across the axis",
+     scene("<shape type=\"cylinder\">\n<transform name=\"to_world\"><scale x=\"2\"/></transform></shape>")},
+    {"ObliqueCylinder", 3, "use a mesh",
+     scene("<shape type=\"cylinder\">\n<transform name=\"to_world\"><matrix value=\"1 0 1 0 0 1 0 0 0 0 1 0 0 0 0 1\"/></transform></shape>")},
+    {"CylinderRadius", 2, "'radius'", scene("<shape type=\"cylinder\"><float name=\"radius\" value=\"0\"/></shape>")},
     // Meshes
     {"MissingMesh", 3, "tried", scene("<shape type=\"obj\">\n<string name=\"filename\" value=\"nowhere.obj\"/></shape>")},
     {"MeshWithoutName", 2, "filename", scene("<shape type=\"ply\"/>")},
@@ -247,7 +258,6 @@ const std::vector<BrokenFile> broken_files = {
      "<scene version=\"3.0.0\">\n<shape type=\"sphere\">\n<float name=\"radius\" value=\"wide\"/></shape></scene>"},
     {"IncludeCycle", "m.xml", "m.xml:1:", "cyclic <include>: scene.xml includes m.xml includes scene.xml",
      "<include filename=\"scene.xml\"/>"},
-#ifndef SUNDOG_MINIMAL
     {"PlyNotPly", "m.ply", "m.ply:1:", "not a PLY file", "solid stl\n"},
     {"PlyEmpty", "m.ply", "m.ply:1:", "truncated", ""},
     {"PlyFormat", "m.ply", "m.ply:2:", "format 'morse'", "ply\nformat morse 1.0\n"},
@@ -258,7 +268,6 @@ const std::vector<BrokenFile> broken_files = {
     {"PlyHugeCount", "m.ply", "m.ply:3:", "2^31", "ply\nformat ascii 1.0\nelement vertex 99999999999\n"},
     {"PlyNegativeList", "m.ply", "m.ply:13:", "list of -3",
      ply_vertices + "element face 1\nproperty list char int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n"},
-#endif
 };
 
 class BrokenSceneFile : public ::testing::TestWithParam<BrokenFile>
