@@ -31,9 +31,9 @@ struct MeshAttribute {
 struct TriangleMesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals; // empty, or one a position (unit length)
-    std::vector<Vec2> uvs; // texture coordinates: empty, or one a position
+    std::vector<Vec2> uvs{}; // texture coordinates: empty, or one a position
     std::vector<std::array<uint, 3>> triangles; // counter-clockwise seen from the normal's side
-    std::vector<MeshAttribute> attributes;
+    std::vector<MeshAttribute> attributes{};
 };
 
 struct Sphere {
