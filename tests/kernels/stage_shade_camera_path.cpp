@@ -30,7 +30,7 @@ TEST_P(ShadeCameraPath, DoesAsPlainCode)
     expect_all_surfaces_seen();
     expect_all_lights_seen();
     if (!GetParam().complete) return;
-    expect_seen({"type 0 seen", "type 1 seen", "type 2 seen", "type 0 found", "type 1 found", "type 2 found"}, 20);
+    expect_seen({"type 0 seen", "type 1 seen", "type 2 seen", "type 0 found", "type 1 found", "type 2 found"}, 10);
     if (GetParam().options.constant_light) expect_seen({"type 6 seen", "type 6 found"});
 }
 

@@ -34,12 +34,15 @@ TEST_P(ShadeSplatPath, DoesAsPlainCode)
             if (!splat) return;
             ASSERT_LT(got[item].pixel, pixels.size());
             EXPECT_EQ(pixels[got[item].pixel], splat->pixel) << "path " << path;
+            const PlainSurface& surface = *expected.surface;
+            if (length(surface.shading_normal - surface.geometric_normal) > 0.1) ++seen_["smooth splats"];
             ++seen_[got[item].radiance.x < 0.0f ? "negative splats" : "splats"];
         });
     expect_few_in_doubt();
     expect_all_surfaces_seen();
     if (!GetParam().complete) return;
     expect_seen({"splats"}, 500);
+    expect_seen({"smooth splats"}, 100);
     if (GetParam().options.filter == FilterKind::mitchell) expect_seen({"negative splats"});
 }
 

@@ -49,7 +49,10 @@ public:
         light(quad({-0.3f, 0.95f, -0.3f}, {0.6f, 0, 0.05f}, {0, 0.05f, 0.7f}), {6, 7, 5});
         light(Sphere{turned({-0.65f, 0.7f, -0.55f}), 0.25f, false}, {2.5f, 3, 2});
         light(Disk{turned({0.6f, 0.8f, 0.2f}), turned({0.3f, 0, 0.05f}), turned({0, 0.15f, 0.4f})}, {5, 6, 4});
-        light(Sphere{turned({0.7f, 0.3f, -0.7f}), 0.2f, true}, {4, 3, 5});
+        // One that glows inwards, lets paths in, and holds something that it lights.
+        light(Sphere{turned({0.62f, 0.35f, -0.05f}), 0.25f, true}, {2.5f, 2, 3});
+        scene.shapes.back().bsdf = nothing;
+        shape(quad({0.55f, 0.25f, -0.1f}, {0.14f, 0.03f, 0.02f}, {0.02f, 0.16f, 0.06f}), red_and_green);
         emitter(PointEmitter{turned({0.5f, 0.9f, 0.6f}), {0.7f, 0.5f, 0.6f}});
         emitter(SpotEmitter{turned({-0.2f, 0.9f, 0.9f}), normalize(turned({0.1f, -1, -0.6f})), {7, 8, 6}, 0.7f, 0.3f});
         emitter(DirectionalEmitter{normalize(turned({0.3f, -1, -0.5f})), {0.4f, 0.35f, 0.3f}});
@@ -72,9 +75,9 @@ private:
             scene.sensor.focus_distance = 3.5f;
         }
         scene.film.width = 130;
-        scene.film.height = 110;
+        scene.film.height = 120;
         scene.film.crop_x = 5;
-        scene.film.crop_y = 9;
+        scene.film.crop_y = 26;      // the smooth floor is in sight
         scene.film.crop_width = 107; // no multiples of a tile
         scene.film.crop_height = 83;
         scene.film.filter.kind = options.filter;
