@@ -105,7 +105,7 @@ const std::vector<Broken> broken_scenes = {
     {"ColdBlackBody", 2, "temperature", scene("<emitter type=\"point\"><blackbody name=\"intensity\" temperature=\"-3\"/></emitter>")},
     {"UnknownAttribute", 3, "'vlaue'", bsdf("<float name=\"radius\" vlaue=\"1\"/>")},
     {"NamelessValue", 3, "attribute name", bsdf("<float value=\"1\"/>")},
-    {"Texture", 3, "texture plugin 'bitmap'", bsdf("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\"/></bsdf>")},
+    {"Texture", 3, "texture plugin 'wood'", bsdf("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"wood\"/></bsdf>")},
     {"UnknownSpectrum", 2, "spectrum plugin 'rainbow'",
      scene("<emitter type=\"constant\"><spectrum name=\"radiance\" type=\"rainbow\"/></emitter>")},
     // Transforms
