@@ -1,6 +1,7 @@
 // Scattering at a surface: sample, evaluate, density; for camera and light subpaths alike.
 #ifndef SUNDOG_SCENE_BSDF_H
 #define SUNDOG_SCENE_BSDF_H
+#include "scene/lobes/coated_diffuse.h"
 #include "scene/lobes/conductor.h"
 #include "scene/lobes/dielectric.h"
 #include "scene/lobes/diffuse.h"
@@ -19,7 +20,7 @@ static inline bool is_specular(const Scattering* scattering)
     }
 }
 
-#define LOBES_MAY_BE_NARROW (BSDF_OCCURS(BSDF_ROUGH_CONDUCTOR) || BSDF_OCCURS(BSDF_ROUGH_DIELECTRIC))
+#define LOBES_MAY_BE_NARROW (LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR) || LOBE_OCCURS(LOBE_ROUGH_DIELECTRIC))
 
 // Smooth, but too narrow a lobe to look for photons with (and never true of a diffuse one).
 static inline bool is_narrow(const Scattering* scattering)
@@ -51,23 +52,46 @@ static inline bool sides_agree(const Scattering* scattering, const Surface* surf
     return shading_crosses == geometry_crosses;
 }
 
-// f (1/sr), without the cosine, from `incoming` (unit) to the outgoing direction; light comes from `incoming` where
-// the subpath carries radiance, and from the outgoing direction where it carries flux. Zero for specular lobes.
-static inline float3 bsdf_evaluate(const Scattering* scattering, const Surface* surface, float3 incoming, int carries)
+// bsdf_evaluate without the shadows of relief.
+static inline float3 evaluate_lobe(const Scattering* scattering, const Surface* surface, float3 incoming, int carries)
 {
     const float cos_i = dot(incoming, scattering->normal);
     if (!sides_agree(scattering, surface, incoming) || is_black_side(scattering)) return (float3)(0.0f);
-#if BSDF_OCCURS(BSDF_ROUGH_DIELECTRIC)
+#if LOBE_OCCURS(LOBE_ROUGH_DIELECTRIC)
     if (scattering->lobe == LOBE_ROUGH_DIELECTRIC) return evaluate_rough_dielectric(scattering, surface->outgoing, incoming, carries);
 #endif
     if (cos_i <= 0.0f) return (float3)(0.0f);
     switch (scattering->lobe) {
     case LOBE_DIFFUSE: return evaluate_diffuse(scattering);
-#if BSDF_OCCURS(BSDF_ROUGH_CONDUCTOR)
+#if LOBE_OCCURS(LOBE_COATED_DIFFUSE)
+    case LOBE_COATED_DIFFUSE: return evaluate_coated_diffuse(scattering, cos_i);
+#endif
+#if LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR)
     case LOBE_ROUGH_CONDUCTOR: return evaluate_rough_conductor(scattering, surface->outgoing, incoming);
 #endif
     default: return (float3)(0.0f);
     }
+}
+
+// f (1/sr), without the cosine, from `incoming` (unit) to the outgoing direction; light comes from `incoming` where
+// the subpath carries radiance, and from the outgoing direction where it carries flux. Zero for specular lobes.
+static inline float3 bsdf_evaluate(const Scattering* scattering, const Surface* surface, float3 incoming, int carries)
+{
+    const float3 f = evaluate_lobe(scattering, surface, incoming, carries);
+#if HAS_RELIEF
+    if (scattering->flags & BSDF_SHADOWS_RELIEF) return f * relief_shadowing(scattering, surface, carries == CARRIES_RADIANCE ? incoming : surface->outgoing);
+#endif
+    return f;
+}
+
+// f for a photon from `incoming`. Its flux was weighted by the cosine to the shading normal: the lobe's may be another.
+static inline float3 evaluate_for_photon(const Scattering* scattering, const Surface* surface, float3 incoming)
+{
+    const float3 f = bsdf_evaluate(scattering, surface, incoming, CARRIES_RADIANCE);
+#if HAS_RELIEF
+    if (scattering->flags & LOBE_PERTURBED) return f * fabs(dot(incoming, scattering->normal) / fmax(fabs(dot(incoming, surface->shading_normal)), 1e-3f));
+#endif
+    return f;
 }
 
 // Density (1/sr) with which bsdf_sample chooses `incoming`. Zero for specular lobes.
@@ -75,13 +99,14 @@ static inline float bsdf_pdf_w(const Scattering* scattering, const Surface* surf
 {
     const float cos_i = dot(incoming, scattering->normal);
     if (is_black_side(scattering)) return 0.0f;
-#if BSDF_OCCURS(BSDF_ROUGH_DIELECTRIC)
+#if LOBE_OCCURS(LOBE_ROUGH_DIELECTRIC)
     if (scattering->lobe == LOBE_ROUGH_DIELECTRIC) return rough_dielectric_pdf_w(scattering, surface->outgoing, incoming);
 #endif
     if (cos_i <= 0.0f) return 0.0f;
     switch (scattering->lobe) {
+    case LOBE_COATED_DIFFUSE:
     case LOBE_DIFFUSE: return diffuse_pdf_w(cos_i);
-#if BSDF_OCCURS(BSDF_ROUGH_CONDUCTOR)
+#if LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR)
     case LOBE_ROUGH_CONDUCTOR: return rough_conductor_pdf_w(scattering, surface->outgoing, incoming);
 #endif
     default: return 0.0f;
@@ -94,33 +119,40 @@ static inline bool bsdf_sample(const Scattering* scattering, const Surface* surf
     if (is_black_side(scattering)) return false;
     const float3 o = surface->outgoing;
     switch (scattering->lobe) {
-#if BSDF_OCCURS(BSDF_DIELECTRIC)
+#if LOBE_OCCURS(LOBE_DIELECTRIC)
     case LOBE_DIELECTRIC: *sample = sample_dielectric(scattering, o, u.z, carries); break;
 #endif
-#if BSDF_OCCURS(BSDF_THIN_DIELECTRIC)
+#if LOBE_OCCURS(LOBE_THIN_DIELECTRIC)
     case LOBE_THIN_DIELECTRIC: *sample = sample_thin_dielectric(scattering, o, u.z); break;
 #endif
-#if BSDF_OCCURS(BSDF_CONDUCTOR)
+#if LOBE_OCCURS(LOBE_CONDUCTOR)
     case LOBE_CONDUCTOR: *sample = sample_conductor(scattering, o); break;
 #endif
-#if BSDF_OCCURS(BSDF_ROUGH_CONDUCTOR)
+#if LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR)
     case LOBE_ROUGH_CONDUCTOR: *sample = sample_rough_conductor(scattering, o, u.xy); break;
 #endif
-#if BSDF_OCCURS(BSDF_ROUGH_DIELECTRIC)
+#if LOBE_OCCURS(LOBE_ROUGH_DIELECTRIC)
     case LOBE_ROUGH_DIELECTRIC: *sample = sample_rough_dielectric(scattering, o, u.xyz, carries); break;
+#endif
+#if LOBE_OCCURS(LOBE_COATED_DIFFUSE)
+    case LOBE_COATED_DIFFUSE: *sample = sample_coated_diffuse(scattering, u.xy); break;
 #endif
     case LOBE_NULL: *sample = specular_sample(-o, (float3)(1.0f)); break;
     default: *sample = sample_diffuse(scattering, u.xy); break;
     }
+#if HAS_RELIEF
+    if ((scattering->flags & BSDF_SHADOWS_RELIEF) && scattering->lobe != LOBE_NULL)
+        sample->weight *= relief_shadowing(scattering, surface, carries == CARRIES_RADIANCE ? sample->direction : o);
+#endif
     // A microfacet that sends light through the surface absorbs it (its weight is zero).
     return !is_black(sample->weight) && sides_agree(scattering, surface, sample->direction);
 }
 
-// Light subpaths see the adjoint BSDF: interpolated normals scale it [Veach 1997, section 5.3].
-static inline float adjoint_shading_scale(const Surface* surface, float3 direction)
+// Light subpaths see the adjoint BSDF: shading normals scale it [Veach 1997, section 5.3].
+static inline float adjoint_shading_scale(const Surface* surface, float3 normal, float3 direction)
 {
-    const float numerator = fabs(dot(surface->outgoing, surface->shading_normal) * dot(direction, surface->geometric_normal));
-    const float denominator = fabs(dot(surface->outgoing, surface->geometric_normal) * dot(direction, surface->shading_normal));
+    const float numerator = fabs(dot(surface->outgoing, normal) * dot(direction, surface->geometric_normal));
+    const float denominator = fabs(dot(surface->outgoing, surface->geometric_normal) * dot(direction, normal));
     return denominator > 1e-6f ? numerator / denominator : 0.0f;
 }
 

@@ -39,7 +39,7 @@ static inline bool continue_light_path(const Surface* surface, const Scattering*
     const float4 u = next_4d(sampler);
     BsdfSample sample;
     if (!bsdf_sample(scattering, surface, u, CARRIES_FLUX, &sample)) return false;
-    float3 weight = sample.weight * adjoint_shading_scale(surface, sample.direction);
+    float3 weight = sample.weight * adjoint_shading_scale(surface, scattering->normal, sample.direction);
     if (path->depth >= rules.rr_depth) {
         const float3 flux = unpack(path->throughput);
         const float survival = fmin(max3(flux * weight) / max3(flux), 1.0f);
@@ -55,10 +55,10 @@ static inline bool continue_light_path(const Surface* surface, const Scattering*
 
 // Light arriving per geometric area becomes irradiance about the shading normal: |cos_s| / |cos_g| at
 // the vertex where a light path ends, see [Veach 1997, section 5.3].
-static inline float irradiance_scale(const Surface* surface)
+static inline float irradiance_scale(const Surface* surface, float3 normal)
 {
     const float cos_g = fabs(dot(surface->outgoing, surface->geometric_normal));
-    return cos_g > 1e-4f ? fabs(dot(surface->outgoing, surface->shading_normal)) / cos_g : 0.0f;
+    return cos_g > 1e-4f ? fabs(dot(surface->outgoing, normal)) / cos_g : 0.0f;
 }
 
 #endif

@@ -1,10 +1,12 @@
 // From a surface to the lobe that a path meets there.
 #ifndef SUNDOG_SCENE_MATERIAL_H
 #define SUNDOG_SCENE_MATERIAL_H
+#include "scene/materials/perturbed_normal.h"
+#include "scene/materials/plastic.h"
 #include "scene/scattering.h"
 #include "scene/texture.h"
 
-// BSDFs inside one another: masks, blends. The importer refuses deeper ones.
+// BSDFs inside one another: masks, blends, maps of normals. The importer refuses deeper ones.
 #define MAX_BSDF_NESTING 8
 
 // One uniform number decides again and again: each decision leaves the part of it that it did not use.
@@ -14,6 +16,9 @@ static inline bool decide(float probability, float* u)
     *u = happens ? *u / probability : (*u - probability) / (1.0f - probability);
     return happens;
 }
+
+#define HAS_RELIEF (HAS_UV && (BSDF_OCCURS(BSDF_NORMAL_MAP) || BSDF_OCCURS(BSDF_BUMP_MAP)))
+#define IS_RELIEF(type) ((type) == BSDF_NORMAL_MAP || (type) == BSDF_BUMP_MAP)
 
 // The side of a BSDF that the path is on.
 static inline Bsdf facing_bsdf(const SurfaceView* scene, uint index, const Surface* surface, Scattering* scattering)
@@ -46,14 +51,23 @@ static inline Scattering scattering_at(const SurfaceView* scene, const Surface* 
     Scattering scattering;
     scattering.normal = surface->shading_normal;
     Bsdf bsdf = facing_bsdf(scene, scene->shapes[surface->shape].bsdf, surface, &scattering);
-#if BSDF_OCCURS(BSDF_MASK) || BSDF_OCCURS(BSDF_BLEND)
-    for (int level = 0; level < MAX_BSDF_NESTING && (bsdf.type == BSDF_MASK || bsdf.type == BSDF_BLEND); ++level) {
+    uint relief = 0u;
+#if BSDF_OCCURS(BSDF_MASK) || BSDF_OCCURS(BSDF_BLEND) || HAS_RELIEF
+    for (int level = 0; level < MAX_BSDF_NESTING && (bsdf.type == BSDF_MASK || bsdf.type == BSDF_BLEND || IS_RELIEF(bsdf.type)); ++level) {
+#if HAS_RELIEF
+        if (IS_RELIEF(bsdf.type)) {
+            perturb_normal(scene, &bsdf, surface, &scattering);
+            relief |= LOBE_PERTURBED | (bsdf.flags & BSDF_SHADOWS_RELIEF);
+            bsdf = facing_bsdf(scene, bsdf.nested[0], surface, &scattering);
+            continue;
+        }
+#endif
         const bool chosen = decide(clamp(textured_number(scene, bsdf.weight, surface), 0.0f, 1.0f), &u);
         if (bsdf.type == BSDF_MASK && !chosen) bsdf.type = BSDF_NULL;
         else bsdf = facing_bsdf(scene, bsdf.nested[bsdf.type == BSDF_BLEND && chosen ? 1 : 0], surface, &scattering);
     }
 #endif
-    scattering.flags = bsdf.flags;
+    scattering.flags = (bsdf.flags & BSDF_BECKMANN) | relief;
     scattering.eta = bsdf.eta;
     scattering.eta_rgb = unpack(bsdf.eta_rgb);
     scattering.k_rgb = unpack(bsdf.k_rgb);
@@ -77,9 +91,12 @@ static inline Scattering scattering_at(const SurfaceView* scene, const Surface* 
     if (bsdf.type == BSDF_ROUGH_CONDUCTOR || bsdf.type == BSDF_ROUGH_DIELECTRIC) {
         scattering.alpha_u = textured_number(scene, bsdf.alpha_u, surface);
         scattering.alpha_v = textured_number(scene, bsdf.alpha_v, surface);
-        scattering.tangent = lobe_tangent(surface, scattering.normal);
     }
 #endif
+#if BSDF_OCCURS(BSDF_PLASTIC) || BSDF_OCCURS(BSDF_ROUGH_PLASTIC)
+    if (bsdf.type == BSDF_PLASTIC || bsdf.type == BSDF_ROUGH_PLASTIC) choose_plastic_lobe(scene, &bsdf, surface, u, &scattering);
+#endif
+    if (LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR) || LOBE_OCCURS(LOBE_ROUGH_DIELECTRIC)) scattering.tangent = lobe_tangent(surface, scattering.normal);
     return scattering;
 }
 
@@ -107,6 +124,7 @@ static inline LobeRecord pack_lobe(const Scattering* scattering, const Surface* 
     record.tangent = pack(scattering->tangent);
     record.outgoing = pack(surface->outgoing);
     record.geometric_normal = pack(surface->geometric_normal);
+    record.shading_normal = pack(surface->shading_normal);
     record.reflectance = pack(scattering->reflectance);
     record.transmittance = pack(scattering->transmittance);
     record.eta_rgb = pack(scattering->eta_rgb);
@@ -131,7 +149,7 @@ static inline Scattering unpack_lobe(const LobeRecord* record, Surface* surface)
     scattering.k_rgb = unpack(record->k_rgb);
     surface->outgoing = unpack(record->outgoing);
     surface->geometric_normal = unpack(record->geometric_normal);
-    surface->shading_normal = scattering.normal;
+    surface->shading_normal = unpack(record->shading_normal);
     scattering.cos_o = dot(surface->outgoing, scattering.normal);
     return scattering;
 }

@@ -17,12 +17,17 @@
 #define BSDF_TYPES 0xffffffffu
 #endif
 #define BSDF_OCCURS(type) ((BSDF_TYPES >> (type)) & 1u)
+// -D LOBE_TYPES: the same for the lobes that those BSDFs have.
+#ifndef LOBE_TYPES
+#define LOBE_TYPES 0xffffffffu
+#endif
+#define LOBE_OCCURS(lobe) ((LOBE_TYPES >> (lobe)) & 1u)
 
 // Weights are divided by the probability of having chosen this lobe: in the mean over choices they add up
 // to the BSDF.
 typedef struct Scattering {
     uint lobe;
-    uint flags; // BSDF_BECKMANN
+    uint flags; // BSDF_BECKMANN, BSDF_SHADOWS_RELIEF, LOBE_PERTURBED
     float3 normal;  // shading normal on the side where the BSDF's front is
     float3 tangent; // along which alpha_u is measured: unit, perpendicular to the normal
     float cos_o;    // of the outgoing direction to the normal; negative behind a one-sided surface

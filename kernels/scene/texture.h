@@ -3,6 +3,8 @@
 #define SUNDOG_SCENE_TEXTURE_H
 #include "scene/surface.h"
 
+#define LUMINANCE_WEIGHTS ((float3)(0.2126f, 0.7152f, 0.0722f)) // of linear sRGB, ITU-R BT.709
+
 // Value in [0, 1] of a display encoding, made linear (IEC 61966-2-1).
 static inline float srgb_decode(float encoded)
 {
@@ -27,6 +29,22 @@ static inline uint wrap_texel(int i, int size, uint wrap)
     int inside = i % period;
     if (inside < 0) inside += period;
     return (uint)(inside < size ? inside : period - 1 - inside);
+}
+
+// How the luminance of a bitmap changes with its u and v, between the texels around.
+static inline float2 bitmap_slope(const SurfaceView* scene, const Texture* texture, float2 uv)
+{
+    const int width = (int)texture->width, height = (int)texture->height;
+    const float2 size = (float2)((float)width, (float)height), limit = 1e9f / size;
+    const float2 point = clamp(uv, -limit, limit) * size;
+    const float2 corner = floor(point - 0.5f);
+    const float2 t = point - 0.5f - corner;
+    const int x = (int)corner.x, y = (int)corner.y;
+    const uint x0 = wrap_texel(x, width, texture->wrap), x1 = wrap_texel(x + 1, width, texture->wrap);
+    const uint y0 = wrap_texel(y, height, texture->wrap), y1 = wrap_texel(y + 1, height, texture->wrap);
+    const float a = dot(read_texel(scene, texture, x0, y0), LUMINANCE_WEIGHTS), b = dot(read_texel(scene, texture, x1, y0), LUMINANCE_WEIGHTS);
+    const float c = dot(read_texel(scene, texture, x0, y1), LUMINANCE_WEIGHTS), d = dot(read_texel(scene, texture, x1, y1), LUMINANCE_WEIGHTS);
+    return size * (float2)(mix(b - a, d - c, t.y), mix(c - a, d - b, t.x));
 }
 
 // Bilinear between texel centres, or the texel at the point. v runs down the image's rows.
@@ -82,7 +100,19 @@ static inline float3 textured_color(const SurfaceView* scene, TexturedColor colo
 static inline float3 textured_color(const SurfaceView* scene, TexturedColor color, const Surface* surface) { return unpack(color.value); }
 #endif
 
-#define LUMINANCE_WEIGHTS ((float3)(0.2126f, 0.7152f, 0.0722f)) // of linear sRGB, ITU-R BT.709
+#if HAS_UV
+// How a number changes with the surface's u and v: a bitmap's slope, and none on the squares of a checkerboard.
+static inline float2 textured_slope(const SurfaceView* scene, TexturedNumber number, const Surface* surface)
+{
+    if (number.texture == NO_TEXTURE) return (float2)(0.0f);
+    const Texture texture = scene->textures[number.texture];
+    if (texture.type != TEXTURE_BITMAP) return (float2)(0.0f);
+    const float3 place = (float3)(surface->uv, 1.0f);
+    const float3 to_u = (float3)(texture.to_u[0], texture.to_u[1], texture.to_u[2]), to_v = (float3)(texture.to_v[0], texture.to_v[1], texture.to_v[2]);
+    const float2 slope = number.value * bitmap_slope(scene, &texture, (float2)(dot(to_u, place), dot(to_v, place)));
+    return (float2)(slope.x * to_u.x + slope.y * to_v.x, slope.x * to_u.y + slope.y * to_v.y);
+}
+#endif
 
 static inline float textured_number(const SurfaceView* scene, TexturedNumber number, const Surface* surface)
 {

@@ -14,6 +14,11 @@ SHARED_BEGIN
 #define BSDF_ROUGH_DIELECTRIC 6u // as a dielectric, with alpha
 #define BSDF_MASK 7u             // nested[0] with probability `weight`, else null
 #define BSDF_BLEND 8u            // nested[1] with probability `weight`, else nested[0]
+#define BSDF_PLASTIC 9u          // a smooth dielectric coat (eta, specular) over a diffuse base (reflectance)
+#define BSDF_ROUGH_PLASTIC 10u   // the same with alpha, and the coat's transmittance in eta_rgb, k_rgb, transmittance
+
+#define BSDF_NORMAL_MAP 11u      // nested[0] about the normal that `reflectance` says
+#define BSDF_BUMP_MAP 12u        // nested[0] about the normal of heights `weight`
 
 // Scatters on both sides: the back by the BSDF `back`. Without it, the back of
 // an opaque BSDF is black, as in Mitsuba.
@@ -25,6 +30,12 @@ SHARED_BEGIN
 #define BSDF_BLACK_BACK 16u
 // The microfacets' normals are distributed by Beckmann's law; else by Trowbridge and Reitz's (GGX).
 #define BSDF_BECKMANN 8u
+// The base of plastic is lit again by what the coat sends back, and takes on colour each time.
+#define BSDF_NONLINEAR 32u
+// Of maps of normals and heights: turns normals round that face away from the path; and darkens what their relief
+// would shadow.
+#define BSDF_FLIPS_NORMALS 64u
+#define BSDF_SHADOWS_RELIEF 128u
 
 // Reflections narrower than this roughness are followed by paths that look for photons, as specular
 // ones are: few photons arrive from where they look. So is ground glass of any roughness, which photons
@@ -40,7 +51,7 @@ typedef struct Bsdf {
     TexturedColor specular;    // factor on what is reflected at the interface
     TexturedColor transmittance;
     Vec3 eta_rgb; // complex index of refraction relative to the exterior, for red, green and blue
-    float unused0;
+    float internal_reflectance; // of plastic: of diffuse light at the coat, from within
     Vec3 k_rgb;
     float unused1;
     TexturedNumber alpha_u; // roughness along the texture's u (root mean square slope, times sqrt(2))
@@ -58,6 +69,14 @@ SHARED_SIZE(Bsdf, 128);
 #define LOBE_NULL 4u
 #define LOBE_ROUGH_CONDUCTOR 5u
 #define LOBE_ROUGH_DIELECTRIC 6u
+#define LOBE_COATED_DIFFUSE 7u
+
+// Of a lobe, beside BSDF_BECKMANN and BSDF_SHADOWS_RELIEF: its normal is not the surface's shading normal.
+#define LOBE_PERTURBED 256u
+
+// How much the rough coat of plastic lets through, to the base and back out of it, from a direction of cosine c to the
+// normal: a series of so many Chebyshev polynomials in 2 sqrt(c) - 1.
+#define COAT_COEFFICIENTS 9
 
 // A lobe in memory (kernels/scene/scattering.h has it in registers), for queries that evaluate it later.
 typedef struct LobeRecord {
@@ -74,7 +93,7 @@ typedef struct LobeRecord {
     Vec3 transmittance;
     Vec3 eta_rgb;
     Vec3 k_rgb;
-    uint unused[3];
+    Vec3 shading_normal; // of the surface
 } LobeRecord;
 SHARED_SIZE(LobeRecord, 128);
 

@@ -58,7 +58,7 @@ static inline Flux8 scattered_flux(Flux8 flux, uint8 directions, int8 mask, cons
     Surface surface;
     const Scattering scattering = unpack_lobe(record, &surface);
     for (int i = 0; i < 8; ++i) {
-        const float3 f = lane_mask[i] ? bsdf_evaluate(&scattering, &surface, -unpack_direction(direction[i]), CARRIES_RADIANCE) : (float3)(0.0f);
+        const float3 f = lane_mask[i] ? evaluate_for_photon(&scattering, &surface, -unpack_direction(direction[i])) : (float3)(0.0f);
         red[i] = lane_mask[i] ? red[i] * f.x : 0.0f;
         green[i] = lane_mask[i] ? green[i] * f.y : 0.0f;
         blue[i] = lane_mask[i] ? blue[i] * f.z : 0.0f;

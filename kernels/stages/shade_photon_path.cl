@@ -10,7 +10,7 @@ static inline Photon make_photon(const Surface* surface, const PathState* path, 
     Photon photon;
     photon.position = pack(surface->position);
     photon.direction = pack_direction(-surface->outgoing);
-    photon.flux = pack(unpack(path->throughput) * irradiance_scale(surface));
+    photon.flux = pack(unpack(path->throughput) * irradiance_scale(surface, surface->shading_normal));
     photon.normal_depth = pack_normal(facing(surface->geometric_normal, surface->outgoing)) |
                           (unreached ? PHOTON_UNREACHED : 0u) | (min(path->depth, PHOTON_MAX_DEPTH) << PHOTON_DEPTH_SHIFT);
     return photon;

@@ -22,7 +22,7 @@ static inline Splat connect_vertex(const Camera* camera, __global const PixelFil
     const float3 to_lens = connection.lens - surface->position;
     const float distance_squared = dot(to_lens, to_lens);
     const float3 direction = to_lens * rsqrt(distance_squared);
-    const float3 f = bsdf_evaluate(scattering, surface, direction, CARRIES_FLUX) * irradiance_scale(surface);
+    const float3 f = bsdf_evaluate(scattering, surface, direction, CARRIES_FLUX) * irradiance_scale(surface, scattering->normal);
     const float geometry = fabs(dot(direction, surface->geometric_normal)) / distance_squared;
     splat.radiance = pack(unpack(path->throughput) * f * (geometry * connection.importance * weight_x * weight_y));
     splat.pixel = path_of_pixel((uint2)((uint)x, (uint)y), camera->crop_width, camera->crop_height);

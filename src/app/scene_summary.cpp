@@ -18,8 +18,20 @@ const char* kind(const Cylinder&) { return "cylinder"; }
 const char* kind(const DiffuseBsdf&) { return "diffuse"; }
 const char* kind(const DielectricBsdf& bsdf) { return bsdf.thin ? "thindielectric" : bsdf.roughness ? "roughdielectric" : "dielectric"; }
 const char* kind(const ConductorBsdf& bsdf) { return bsdf.roughness ? "roughconductor" : "conductor"; }
+const char* kind(const PlasticBsdf& bsdf)
+{
+    return bsdf.roughness ? "roughplastic" : "plastic";
+}
 const char* kind(const MaskBsdf&) { return "mask"; }
 const char* kind(const BlendBsdf&) { return "blendbsdf"; }
+const char* kind(const NormalMapBsdf&)
+{
+    return "normalmap";
+}
+const char* kind(const BumpMapBsdf&)
+{
+    return "bumpmap";
+}
 const char* kind(const NullBsdf&) { return "null"; }
 const char* kind(const TwoSidedBsdf&) { return "twosided"; }
 const char* kind(const PointEmitter&) { return "point"; }

@@ -1,8 +1,10 @@
 #include "import/bsdf_import.h"
 
+#include "import/text_file.h"
 #include "scene/materials.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace sundog
 {
@@ -10,15 +12,38 @@ namespace sundog
 namespace
 {
 
-constexpr const char* supported_bsdfs =
-    "diffuse, dielectric, roughdielectric, thindielectric, conductor, roughconductor, mask, blendbsdf, twosided, null";
+constexpr const char* supported_bsdfs = "diffuse, dielectric, roughdielectric, thindielectric, conductor, roughconductor, plastic, "
+                                        "roughplastic, mask, blendbsdf, mixturebsdf, normalmap, bumpmap, twosided, null";
 constexpr uint max_nesting = 6; // of masks and blends: the device has room for a few more
 constexpr double max_alpha = 1.0;
+
+// BSDFs of Mitsuba that are refused, and what comes near them.
+struct Refusal {
+    const char* type;
+    const char* cure;
+};
+constexpr Refusal refusals[] = {
+    {"ward", "use roughconductor, or blendbsdf of it and diffuse"},
+    {"phong", "use roughplastic, or blendbsdf of diffuse and roughconductor"},
+    {"coating", "use plastic, or blendbsdf of the coated bsdf and conductor"},
+    {"roughcoating", "use roughplastic, or blendbsdf of the coated bsdf and roughconductor"},
+    {"difftrans", "use diffuse, or roughdielectric"},
+    {"hk", "use diffuse"},
+    {"irawan", "use diffuse with a bitmap"},
+    {"hair", "use roughdielectric, or roughconductor"},
+    {"measured", "use roughconductor, or roughplastic"},
+    {"measured_polarized", "use roughconductor, or roughplastic"},
+    {"pplastic", "use plastic, or roughplastic: light is not polarised here"},
+    {"principled", "use roughplastic, roughconductor or roughdielectric, or blendbsdf of them"},
+    {"principledthin", "use thindielectric, or blendbsdf of it and diffuse"},
+};
 
 bool transmits(const std::vector<BsdfDescription>& bsdfs, uint index)
 {
     const auto& model = bsdfs[index].model;
     if (const auto* blend = std::get_if<BlendBsdf>(&model)) return transmits(bsdfs, blend->nested[0]) || transmits(bsdfs, blend->nested[1]);
+    if (const auto* map = std::get_if<NormalMapBsdf>(&model)) return transmits(bsdfs, map->nested);
+    if (const auto* map = std::get_if<BumpMapBsdf>(&model)) return transmits(bsdfs, map->nested);
     return std::holds_alternative<DielectricBsdf>(model) || std::holds_alternative<NullBsdf>(model) || std::holds_alternative<MaskBsdf>(model);
 }
 
@@ -55,6 +80,8 @@ uint BsdfImporter::nesting(uint bsdf) const
     const auto& model = bsdfs_[bsdf].model;
     if (const auto* mask = std::get_if<MaskBsdf>(&model)) return 1 + nesting(mask->nested);
     if (const auto* blend = std::get_if<BlendBsdf>(&model)) return 1 + std::max(nesting(blend->nested[0]), nesting(blend->nested[1]));
+    if (const auto* map = std::get_if<NormalMapBsdf>(&model)) return 1 + nesting(map->nested);
+    if (const auto* map = std::get_if<BumpMapBsdf>(&model)) return 1 + nesting(map->nested);
     if (const auto* sides = std::get_if<TwoSidedBsdf>(&model)) return std::max(nesting(sides->front), nesting(sides->back));
     return 0;
 }
@@ -78,10 +105,16 @@ BsdfImporter::Model BsdfImporter::read(ObjectReader& reader)
         bsdf.roughness = read_roughness(reader);
         return bsdf;
     }
+    if (type == "plastic" || type == "roughplastic") return read_plastic(reader, type == "roughplastic");
     if (type == "null") return NullBsdf{};
     if (type == "mask") return read_mask(reader);
     if (type == "blendbsdf") return read_blend(reader);
+    if (type == "normalmap") return read_normal_map(reader);
+    if (type == "bumpmap") return read_bump_map(reader);
+    if (type == "mixturebsdf") return read_mixture(reader);
     if (type == "twosided") return read_two_sided(reader);
+    for (const Refusal& refusal : refusals)
+        if (type == refusal.type) throw SceneError(reader.where(), "bsdf plugin '" + type + "' is not supported: " + refusal.cure);
     reader.unsupported(supported_bsdfs);
 }
 
@@ -129,6 +162,9 @@ Roughness BsdfImporter::read_roughness(ObjectReader& reader)
 {
     Roughness roughness;
     const std::string distribution = reader.text("distribution", "beckmann");
+    if (distribution == "as" || distribution == "phong")
+        throw SceneError(reader.where_of("distribution"),
+                         "distribution '" + distribution + "' is not supported: use beckmann, with alpha = sqrt(2 / (exponent + 2))");
     if (distribution != "beckmann" && distribution != "ggx")
         throw SceneError(reader.where_of("distribution"), "'distribution' must be beckmann or ggx, got '" + distribution + "'");
     roughness.beckmann = distribution == "beckmann";
@@ -142,6 +178,23 @@ Roughness BsdfImporter::read_roughness(ObjectReader& reader)
     }
     reader.ignore("sample_visible", "visible normals are always sampled");
     return roughness;
+}
+
+PlasticBsdf BsdfImporter::read_plastic(ObjectReader& reader, bool rough)
+{
+    PlasticBsdf bsdf;
+    bsdf.int_ior = reader.ior("int_ior", "polypropylene");
+    bsdf.ext_ior = reader.ior("ext_ior", "air");
+    bsdf.diffuse_reflectance = reflectance(reader, "diffuse_reflectance", {0.5f, 0.5f, 0.5f});
+    bsdf.specular_reflectance = reflectance(reader, "specular_reflectance", {1, 1, 1});
+    bsdf.nonlinear = reader.boolean("nonlinear", false);
+    if (!rough) return bsdf;
+    if (reader.object("alpha", "texture"))
+        throw SceneError(reader.where_of("alpha"), "'alpha' of a roughplastic must be a number, not a texture");
+    for (const char* name : {"alpha_u", "alpha_v"})
+        reader.refuse(name, "the coat of plastic is as rough along u as along v: give it 'alpha'");
+    bsdf.roughness = read_roughness(reader);
+    return bsdf;
 }
 
 std::vector<uint> BsdfImporter::nested(ObjectReader& reader, std::size_t least, std::size_t most)
@@ -172,6 +225,77 @@ BlendBsdf BsdfImporter::read_blend(ObjectReader& reader)
     bsdf.nested[0] = inside[0];
     bsdf.nested[1] = inside[1];
     return bsdf;
+}
+
+// 0.6 has neither the flip nor the shadowing.
+template <class Map> void BsdfImporter::read_relief(ObjectReader& reader, Map& map)
+{
+    map.flip_invalid = reader.boolean("flip_invalid_normals", !index_.legacy());
+    map.shadowing = reader.boolean("use_shadowing_function", !index_.legacy());
+    map.nested = nested(reader, 1, 1).front();
+}
+
+NormalMapBsdf BsdfImporter::read_normal_map(ObjectReader& reader)
+{
+    NormalMapBsdf map;
+    const auto texture = textures_.nested(reader);
+    if (!texture) throw SceneError(reader.where(), "a normalmap needs a <texture> inside");
+    map.normals = *texture;
+    read_relief(reader, map);
+    return map;
+}
+
+BumpMapBsdf BsdfImporter::read_bump_map(ObjectReader& reader)
+{
+    BumpMapBsdf map;
+    const auto texture = textures_.nested(reader);
+    if (!texture) throw SceneError(reader.where(), "a bumpmap needs a <texture> inside");
+    const float scale = static_cast<float>(reader.number("scale", 1.0)) * luminance(texture->value);
+    map.heights = texture->texture ? NumberSource(scale, *texture->texture) : NumberSource(0.0f);
+    read_relief(reader, map);
+    return map;
+}
+
+// A balanced tree of blends, so that many parts are not nested deeply.
+uint BsdfImporter::blend_of(const XmlElement& element, std::span<const WeightedBsdf> parts)
+{
+    if (parts.size() == 1) return parts.front().bsdf;
+    const auto half = parts.subspan(0, parts.size() / 2), rest = parts.subspan(parts.size() / 2);
+    const auto sum = [](std::span<const WeightedBsdf> some) {
+        return std::accumulate(some.begin(), some.end(), 0.0, [](double total, const WeightedBsdf& part) { return total + part.weight; });
+    };
+    const double all = sum(parts);
+    BlendBsdf blend;
+    blend.weight = all > 0.0 ? static_cast<float>(sum(rest) / all) : 0.0f;
+    blend.nested[0] = blend_of(element, half);
+    blend.nested[1] = blend_of(element, rest);
+    return add(element, blend);
+}
+
+// 0.6: a sum of BSDFs with weights of at most 1 together; what is left is black.
+BsdfImporter::Model BsdfImporter::read_mixture(ObjectReader& reader)
+{
+    const auto inside = nested(reader, 1, 32);
+    const SourceLocation where = reader.where_of("weights");
+    std::vector<WeightedBsdf> parts;
+    double sum = 0.0;
+    const std::string text = reader.text("weights", "");
+    for (const std::string_view token : tokens(text)) {
+        const auto weight = parse_number(token);
+        if (!weight || *weight < 0.0 || *weight > 1.0)
+            throw SceneError(where, "'weights' of a mixturebsdf must each be between 0 and 1, got '" + std::string(token) + "'");
+        if (parts.size() == inside.size()) throw SceneError(where, "mixturebsdf has more weights than bsdfs inside: give one a bsdf");
+        parts.push_back({inside[parts.size()], *weight});
+        sum += *weight;
+    }
+    if (parts.size() < inside.size()) throw SceneError(where, "mixturebsdf has fewer weights than bsdfs inside: give one a bsdf");
+    if (sum > 1.0 + 1e-6) throw SceneError(where, "the weights of a mixturebsdf must not add up to more than 1");
+    if (sum < 1.0 - 1e-6) parts.push_back({add_diffuse("", reader.where(), {0, 0, 0}), 1.0 - sum});
+    if (parts.size() == 1) parts.push_back({parts.front().bsdf, 0.0});
+    const uint blend = blend_of(reader.element(), parts);
+    Model model = bsdfs_[blend].model;
+    bsdfs_.pop_back(); // the caller adds it
+    return model;
 }
 
 TwoSidedBsdf BsdfImporter::read_two_sided(ObjectReader& reader)

@@ -77,6 +77,13 @@ NumberSource TextureImporter::number(ObjectReader& reader, std::string_view name
     return static_cast<float>(value);
 }
 
+std::optional<ColorSource> TextureImporter::nested(ObjectReader& reader)
+{
+    const auto texture = reader.single("texture");
+    if (!texture) return {};
+    return import(*texture->object);
+}
+
 ColorSource TextureImporter::import(const XmlElement& element)
 {
     if (const auto found = imported_.find(&element); found != imported_.end()) return found->second;

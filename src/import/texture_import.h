@@ -20,6 +20,9 @@ public:
     // A parameter that is a number or a texture, in [least, most].
     NumberSource number(ObjectReader& reader, std::string_view name, double fallback, double least, double most);
 
+    // The one texture inside, whatever its name. Throws SceneError for more.
+    std::optional<ColorSource> nested(ObjectReader& reader);
+
 private:
     // The texture, and what its value has to be multiplied by (0.6's <texture type="scale">).
     ColorSource import(const XmlElement& element);

@@ -111,7 +111,9 @@ bool has_delta_lights(const FlatScene& flat)
 bool needs_texture_coordinates(const FlatScene& flat)
 {
     const auto anisotropic = [](const Bsdf& bsdf) { return bsdf.alpha_u.value != bsdf.alpha_v.value || bsdf.alpha_u.texture != bsdf.alpha_v.texture; };
-    return !flat.textures.empty() || std::any_of(flat.bsdfs.begin(), flat.bsdfs.end(), anisotropic);
+    const auto relief = [](const Bsdf& bsdf) { return bsdf.type == BSDF_NORMAL_MAP || bsdf.type == BSDF_BUMP_MAP; };
+    return !flat.textures.empty() || std::any_of(flat.bsdfs.begin(), flat.bsdfs.end(), relief) ||
+           std::any_of(flat.bsdfs.begin(), flat.bsdfs.end(), anisotropic);
 }
 
 Camera make_camera(const Sensor& sensor, const Film& film)

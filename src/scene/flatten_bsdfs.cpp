@@ -1,5 +1,7 @@
 #include "scene/flatten_bsdfs.h"
 
+#include "scene/plastic_coat.h"
+
 #include <algorithm>
 
 namespace sundog {
@@ -39,6 +41,11 @@ void set_roughness(Bsdf& bsdf, const std::optional<Roughness>& roughness)
     bsdf.alpha_v = flatten(roughness->alpha_v);
 }
 
+template <class Map> uint relief_flags(const Map& map)
+{
+    return (map.flip_invalid ? BSDF_FLIPS_NORMALS : 0u) | (map.shadowing ? BSDF_SHADOWS_RELIEF : 0u);
+}
+
 // Of one description by itself; what it takes from nested ones comes later.
 struct BsdfFlattener {
     Bsdf operator()(const DiffuseBsdf& diffuse) const
@@ -67,6 +74,28 @@ struct BsdfFlattener {
         set_roughness(bsdf, conductor.roughness);
         return bsdf;
     }
+    Bsdf operator()(const PlasticBsdf& plastic) const
+    {
+        const uint coat = plastic.roughness && plastic.roughness->beckmann ? BSDF_BECKMANN : 0u;
+        Bsdf bsdf = record(plastic.roughness ? BSDF_ROUGH_PLASTIC : BSDF_PLASTIC,
+                           BSDF_HAS_SMOOTH | BSDF_HAS_BROAD | BSDF_BLACK_BACK | coat | (plastic.nonlinear ? BSDF_NONLINEAR : 0u));
+        bsdf.eta = plastic.int_ior / plastic.ext_ior;
+        bsdf.reflectance = flatten(plastic.diffuse_reflectance);
+        bsdf.specular = flatten(plastic.specular_reflectance);
+        if (!plastic.roughness) {
+            bsdf.internal_reflectance = smooth_internal_reflectance(bsdf.eta);
+            return bsdf;
+        }
+        const float alpha = std::max(plastic.roughness->alpha_u.value, 1e-3f);
+        const CoatTransmission transmission = rough_coat(bsdf.eta, alpha, plastic.roughness->beckmann);
+        bsdf.alpha_u = bsdf.alpha_v = {alpha, NO_TEXTURE};
+        bsdf.internal_reflectance = transmission.internal_reflectance;
+        const auto& c = transmission.series;
+        bsdf.eta_rgb = {c[0], c[1], c[2]};
+        bsdf.k_rgb = {c[3], c[4], c[5]};
+        bsdf.transmittance.value = {c[6], c[7], c[8]};
+        return bsdf;
+    }
     Bsdf operator()(const NullBsdf&) const { return record(BSDF_NULL, no_flags); }
     Bsdf operator()(const MaskBsdf& mask) const
     {
@@ -83,8 +112,46 @@ struct BsdfFlattener {
         bsdf.nested[1] = blend.nested[1];
         return bsdf;
     }
+    Bsdf operator()(const NormalMapBsdf& map) const
+    {
+        Bsdf bsdf = record(BSDF_NORMAL_MAP, relief_flags(map));
+        bsdf.reflectance = flatten(map.normals);
+        bsdf.nested[0] = map.nested;
+        return bsdf;
+    }
+    Bsdf operator()(const BumpMapBsdf& map) const
+    {
+        Bsdf bsdf = record(BSDF_BUMP_MAP, relief_flags(map));
+        bsdf.weight = flatten(map.heights);
+        bsdf.nested[0] = map.nested;
+        return bsdf;
+    }
     Bsdf operator()(const TwoSidedBsdf&) const { return record(BSDF_NULL, no_flags); } // replaced below
 };
+
+constexpr uint bit(uint n)
+{
+    return 1u << n;
+}
+
+// Of the record alone; nested BSDFs have records of their own.
+uint lobes_of(const Bsdf& bsdf)
+{
+    switch (bsdf.type) {
+    case BSDF_MASK:
+        return bit(LOBE_NULL);
+    case BSDF_BLEND:
+    case BSDF_NORMAL_MAP:
+    case BSDF_BUMP_MAP:
+        return 0;
+    case BSDF_PLASTIC:
+        return bit(LOBE_CONDUCTOR) | bit(LOBE_COATED_DIFFUSE);
+    case BSDF_ROUGH_PLASTIC:
+        return bit(LOBE_ROUGH_CONDUCTOR) | bit(LOBE_COATED_DIFFUSE);
+    default:
+        return bit(bsdf.type); // the first types are lobes
+    }
+}
 
 constexpr uint inherited_flags = BSDF_HAS_SMOOTH | BSDF_HAS_BROAD; // from any part; BSDF_BLACK_BACK only from all
 
@@ -92,6 +159,10 @@ constexpr uint inherited_flags = BSDF_HAS_SMOOTH | BSDF_HAS_BROAD; // from any p
 void take_from_nested(const BsdfDescription& description, std::vector<Bsdf>& bsdfs, std::size_t i)
 {
     if (const auto* mask = std::get_if<MaskBsdf>(&description.model)) bsdfs[i].flags |= bsdfs.at(mask->nested).flags & (inherited_flags | BSDF_BLACK_BACK);
+    if (const auto* map = std::get_if<NormalMapBsdf>(&description.model))
+        bsdfs[i].flags |= bsdfs.at(map->nested).flags & (inherited_flags | BSDF_BLACK_BACK);
+    if (const auto* map = std::get_if<BumpMapBsdf>(&description.model))
+        bsdfs[i].flags |= bsdfs.at(map->nested).flags & (inherited_flags | BSDF_BLACK_BACK);
     if (const auto* blend = std::get_if<BlendBsdf>(&description.model)) {
         const uint first = bsdfs.at(blend->nested[0]).flags, second = bsdfs.at(blend->nested[1]).flags;
         bsdfs[i].flags |= ((first | second) & inherited_flags) | (first & second & BSDF_BLACK_BACK);
@@ -132,9 +203,18 @@ uint bsdf_types(std::span<const Bsdf> bsdfs)
     return types;
 }
 
+uint lobe_types(std::span<const Bsdf> bsdfs)
+{
+    uint lobes = 0;
+    for (const Bsdf& bsdf : bsdfs) lobes |= lobes_of(bsdf);
+    return lobes;
+}
+
 bool has_lobes_to_evaluate(std::span<const Bsdf> bsdfs)
 {
-    return std::any_of(bsdfs.begin(), bsdfs.end(), [](const Bsdf& bsdf) { return bsdf.type == BSDF_ROUGH_CONDUCTOR || bsdf.type == BSDF_ROUGH_DIELECTRIC; });
+    constexpr uint evaluated = bit(LOBE_ROUGH_CONDUCTOR) | bit(LOBE_ROUGH_DIELECTRIC) | bit(LOBE_COATED_DIFFUSE);
+    constexpr uint turned = bit(BSDF_NORMAL_MAP) | bit(BSDF_BUMP_MAP); // of which even diffuse ones are evaluated
+    return (lobe_types(bsdfs) & evaluated) != 0 || (bsdf_types(bsdfs) & turned) != 0;
 }
 
 } // namespace sundog

@@ -18,6 +18,9 @@ TexturedNumber flatten(const NumberSource& number);
 // Bit t is set where there are BSDFs of type t: what kernels are specialised for.
 uint bsdf_types(std::span<const Bsdf> bsdfs);
 
+// The same for lobes.
+uint lobe_types(std::span<const Bsdf> bsdfs);
+
 // Whether a query may meet a lobe whose value depends on where a photon comes from.
 bool has_lobes_to_evaluate(std::span<const Bsdf> bsdfs);
 

@@ -32,7 +32,8 @@ struct NamedConductor {
 
 // Tabulated n and k of the Luxpop collection and [Palik 1998, Handbook of Optical Constants of Solids], integrated
 // against the CIE 1931 curves into linear sRGB without white balance, as Mitsuba's RGB modes do, so that a metal
-// looks the same in both. They are coefficients of a colour space, not the index at any one wavelength.
+// looks the same in both. They are coefficients of a colour space, not the index at any one wavelength, and
+// those out of its gamut are (all but) 0.
 constexpr NamedConductor conductors[] = {
     {"none", {{0, 0, 0}, {1, 1, 1}}},
     {"a-C", {{2.94410f, 2.22715f, 1.96817f}, {0.88743f, 0.79932f, 0.81529f}}},
@@ -59,6 +60,20 @@ constexpr NamedConductor conductors[] = {
     {"VC", {{3.65757f, 2.75273f, 2.53268f}, {3.06835f, 2.19869f, 1.96318f}}},
     {"VN", {{2.86560f, 2.11918f, 1.94008f}, {3.03233f, 2.05611f, 1.61629f}}},
     {"W", {{4.37070f, 3.30030f, 2.99827f}, {3.50068f, 2.60487f, 2.27319f}}},
+    {"AlAs", {{3.60530f, 3.23294f, 2.21632f}, {0.00068f, 0.00000f, 0.00751f}}},
+    {"AlSb", {{0.00001f, 4.13937f, 4.66925f}, {0.00000f, 0.09401f, 1.30057f}}},
+    {"CsI", {{2.14490f, 1.70232f, 1.66243f}, {0.00000f, 0.00000f, 0.00000f}}},
+    {"Cu2O", {{3.55177f, 2.94987f, 2.75188f}, {0.11421f, 0.19390f, 0.60613f}}},
+    {"CuO", {{3.24754f, 2.44781f, 2.21022f}, {0.52109f, 0.57003f, 0.72218f}}},
+    {"d-C", {{2.70872f, 2.31883f, 2.22890f}, {0.00000f, 0.00000f, 0.00000f}}},
+    {"HgTe", {{4.77904f, 3.23120f, 2.65990f}, {1.63161f, 1.58081f, 1.72929f}}},
+    {"MgO", {{2.08958f, 1.65072f, 1.59488f}, {0.00000f, 0.00000f, 0.00000f}}},
+    {"Se", {{4.05831f, 2.84294f, 2.82085f}, {0.75405f, 0.63844f, 0.52181f}}},
+    {"SiC", {{3.17234f, 2.52597f, 2.47937f}, {0.00000f, 0.00000f, 0.00001f}}},
+    {"SnTe", {{4.52425f, 1.98164f, 1.28159f}, {0.00000f, 0.00000f, 0.00000f}}},
+    {"Te", {{7.39023f, 4.48210f, 2.63711f}, {3.25602f, 3.52706f, 3.29205f}}},
+    {"ThF4", {{1.83071f, 1.44223f, 1.38765f}, {0.00000f, 0.00000f, 0.00000f}}},
+    {"TiO2", {{3.45661f, 2.80174f, 2.90517f}, {0.00011f, 0.00000f, 0.00065f}}},
 };
 
 template <typename Table> std::string names_of(const Table& table)

@@ -158,6 +158,32 @@ struct ConductorBsdf {
     std::optional<Roughness> roughness = std::nullopt;
 };
 
+// A dielectric coat over a diffuse base.
+struct PlasticBsdf {
+    float int_ior = 1.49f;     // polypropylene
+    float ext_ior = 1.000277f; // air
+    ColorSource diffuse_reflectance{0.5f, 0.5f, 0.5f};
+    ColorSource specular_reflectance;
+    bool nonlinear = false;                            // colours deepen as light goes to and fro below the coat
+    std::optional<Roughness> roughness = std::nullopt; // of the coat: isotropic, a number
+};
+
+// Another BSDF about a normal that a texture says: (x, y, z) + 1, halved, in the frame of u, v and the shading normal.
+struct NormalMapBsdf {
+    ColorSource normals{0.5f, 0.5f, 1.0f};
+    bool flip_invalid = true; // turn round normals that face away from the viewer
+    bool shadowing = true;    // darken what the relief would shadow
+    uint nested = 0;          // index into Scene::bsdfs
+};
+
+// The same by heights (scene units): the normal of the surface that they would raise.
+struct BumpMapBsdf {
+    NumberSource heights{0.0f};
+    bool flip_invalid = true;
+    bool shadowing = true;
+    uint nested = 0;
+};
+
 struct NullBsdf {};
 
 // `nested` where the mask is opaque, else nothing at all.
@@ -180,7 +206,9 @@ struct TwoSidedBsdf {
 struct BsdfDescription {
     std::string id; // as in the file, may be empty
     SourceLocation where;
-    std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, NullBsdf, TwoSidedBsdf, MaskBsdf, BlendBsdf> model;
+    std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, NullBsdf, TwoSidedBsdf, MaskBsdf, BlendBsdf, PlasticBsdf, NormalMapBsdf,
+                 BumpMapBsdf>
+        model;
 };
 
 // --- Emitters -----------------------------------------------------------------

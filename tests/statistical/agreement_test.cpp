@@ -124,6 +124,64 @@ TEST(Agreement, MirroredPointLightOnNarrowMetal)
     expect_agreement(scene, {request("ptracer", 96), request("pppm", 64), request("sppm", 64), request("pppm", 64, "direct", "photons")}, edge_bias);
 }
 
+// The two lobes of plastic, and the parts of a mask and a blend, are chosen anew by each path.
+Scene plastic_spheres(const PlasticBsdf& model)
+{
+    Scene scene = cornell_box(size);
+    const uint plastic = add_bsdf(scene, model);
+    const uint blend = add_bsdf(scene, BlendBsdf{0.4f, {0, plastic}});
+    const uint mask = add_bsdf(scene, MaskBsdf{0.6f, plastic});
+    scene.shapes.push_back(make_sphere({.5f, -.65f, .3f}, .33f, plastic));
+    scene.shapes.push_back(make_sphere({-.4f, .2f, -.3f}, .33f, blend));
+    scene.shapes.push_back(make_sphere({.4f, .2f, -.3f}, .33f, mask));
+    return scene;
+}
+
+TEST(Agreement, RoughPlasticMaskAndBlend)
+{
+    const Scene scene = plastic_spheres(PlasticBsdf{1.5f, 1.0f, {.2f, .3f, .7f}, {1, 1, 1}, false, Roughness{false, 0.3f, 0.3f}});
+    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48)}, edge_bias);
+}
+
+// Without ptracer, to which what a smooth coat mirrors is invisible.
+TEST(Agreement, SmoothPlasticMaskAndBlend)
+{
+    const Scene scene = plastic_spheres(PlasticBsdf{1.5f, 1.0f, {.6f, .3f, .1f}, {1, 1, 1}, true});
+    expect_agreement(scene, {request("path", 256), request("pppm", 48), request("sppm", 48)}, edge_bias);
+}
+
+// An 8 x 8 bitmap that is different in each texel, and the relief that it makes of a wall with texture coordinates.
+uint add_relief(Scene& scene, bool normals, uint nested)
+{
+    TexelImage image;
+    image.width = image.height = 8;
+    image.format = TexelFormat::linear8;
+    for (uint i = 0; i < 64; i++) image.texels.push_back((96 + 37 * i % 64) | (96 + 53 * i % 64) << 8 | (normals ? 240u : 128u) << 16);
+    scene.textures.push_back({"",
+                              {},
+                              {1, 0, 0},
+                              {0, 1, 0},
+                              BitmapTexture{std::make_shared<const TexelImage>(image), WrapMode::repeat, TextureFilter::bilinear}});
+    const uint texture = static_cast<uint>(scene.textures.size() - 1);
+    // Normals are not turned round: which are would depend on the side that a path comes from.
+    if (normals) return add_bsdf(scene, NormalMapBsdf{ColorSource(Vec3{1, 1, 1}, texture), false, true, nested});
+    return add_bsdf(scene, BumpMapBsdf{NumberSource(0.3f, texture), false, true, nested});
+}
+
+TEST(Agreement, Relief)
+{
+    Scene scene = cornell_box(size);
+    const uint metal = add_bsdf(scene, ConductorBsdf{{0.2f, 0.9f, 1.1f}, {3.9f, 2.5f, 2.1f}, {}, Roughness{false, 0.4f, 0.4f}});
+    const uint bumps = add_relief(scene, false, 0), normals = add_relief(scene, true, metal);
+    for (const uint bsdf : {bumps, normals}) {
+        const float x = bsdf == bumps ? -.9f : .1f;
+        ShapeDescription panel = make_quad({x, -.6f, -.3f}, {x + .8f, -.6f, -.3f}, {x + .8f, .4f, -.7f}, {x, .4f, -.7f}, bsdf);
+        std::get<TriangleMesh>(panel.geometry).uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        scene.shapes.push_back(panel);
+    }
+    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48)}, edge_bias);
+}
+
 TEST(Agreement, ThinPaneAndDisk)
 {
     Scene scene = cornell_box(size);

@@ -188,10 +188,67 @@ TEST(ImportScene, ReferencesMayLookForwardAndThroughAliases)
     expect_near(bsdf_of<DiffuseBsdf>(loaded, 0).reflectance.value, {0.1f, 0.2f, 0.3f}, 1e-7f);
 }
 
+TEST(ImportScene, PlasticAndItsDefaults)
+{
+    const auto loaded = load_with(R"(<shape type="sphere"><bsdf type="plastic"/></shape>
+        <shape type="sphere"><bsdf type="roughplastic"><string name="distribution" value="ggx"/><float name="alpha" value="0.25"/>
+        <boolean name="nonlinear" value="true"/><rgb name="diffuse_reflectance" value="0.1, 0.2, 0.3"/><float name="int_ior" value="1.8"/></bsdf></shape>)");
+    const auto& smooth = bsdf_of<PlasticBsdf>(loaded, 0);
+    EXPECT_FLOAT_EQ(smooth.int_ior, 1.49f);
+    EXPECT_FALSE(smooth.nonlinear || smooth.roughness);
+    expect_near(smooth.diffuse_reflectance.value, {0.5f, 0.5f, 0.5f}, 0);
+    const auto& rough = bsdf_of<PlasticBsdf>(loaded, 1);
+    ASSERT_TRUE(rough.roughness);
+    EXPECT_FALSE(rough.roughness->beckmann);
+    EXPECT_FLOAT_EQ(rough.roughness->alpha_v.value, 0.25f);
+    EXPECT_TRUE(rough.nonlinear);
+    EXPECT_FLOAT_EQ(rough.int_ior, 1.8f);
+}
+
+// Probabilities along the tree of blends are the weights, and black takes what is left of 1.
+double weight_in(const Scene& scene, uint bsdf, float red)
+{
+    if (const auto* blend = std::get_if<BlendBsdf>(&scene.bsdfs[bsdf].model)) {
+        const double second = static_cast<double>(blend->weight.value);
+        return (1.0 - second) * weight_in(scene, blend->nested[0], red) + second * weight_in(scene, blend->nested[1], red);
+    }
+    return std::get<DiffuseBsdf>(scene.bsdfs[bsdf].model).reflectance.value.x == red ? 1.0 : 0.0;
+}
+
+TEST(ImportScene, MixturesBecomeBlends)
+{
+    std::string parts;
+    for (const char* red : {"0.25", "0.5", "0.75"})
+        parts += std::string("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"") + red + ", 0, 0\"/></bsdf>";
+    const auto loaded = load_with("<shape type=\"sphere\"><bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"0.1, 0.3, 0.4\"/>" +
+                                  parts + "</bsdf></shape>");
+    const uint mixture = loaded.scene.shapes.at(0).bsdf;
+    EXPECT_NEAR(weight_in(loaded.scene, mixture, 0.25f), 0.1, 1e-6);
+    EXPECT_NEAR(weight_in(loaded.scene, mixture, 0.5f), 0.3, 1e-6);
+    EXPECT_NEAR(weight_in(loaded.scene, mixture, 0.75f), 0.4, 1e-6);
+    EXPECT_NEAR(weight_in(loaded.scene, mixture, 0.0f), 0.2, 1e-6);
+}
+
+TEST(ImportScene, ReliefHoldsOneBsdfAndOneTexture)
+{
+    const std::string texture = R"(<texture type="checkerboard" name="any"/>)", inside = R"(<bsdf type="diffuse"/>)";
+    const auto loaded = load_with(
+        "<shape type=\"sphere\"><bsdf type=\"bumpmap\"><float name=\"scale\" value=\"3\"/>" + texture + inside +
+        "</bsdf></shape><shape type=\"sphere\"><bsdf type=\"normalmap\"><boolean name=\"flip_invalid_normals\" value=\"false\"/>" +
+        texture + inside + "</bsdf></shape>");
+    const auto& bumps = bsdf_of<BumpMapBsdf>(loaded, 0);
+    EXPECT_FLOAT_EQ(bumps.heights.value, 3.0f);
+    EXPECT_TRUE(bumps.heights.texture.has_value());
+    EXPECT_TRUE(bumps.flip_invalid && bumps.shadowing);
+    const auto& normals = bsdf_of<NormalMapBsdf>(loaded, 1);
+    EXPECT_TRUE(normals.normals.texture.has_value());
+    EXPECT_FALSE(normals.flip_invalid);
+    EXPECT_TRUE(normals.shadowing);
+}
+
 TEST(ImportScene, UnusedObjectsOfUnsupportedTypesAreNoFault)
 {
-    const auto loaded =
-        load_with(R"(<bsdf type="roughplastic" id="unused"/><texture type="bitmap" id="t"/><medium type="homogeneous" id="m"/>)");
+    const auto loaded = load_with(R"(<bsdf type="irawan" id="unused"/><texture type="bitmap" id="t"/><medium type="homogeneous" id="m"/>)");
     EXPECT_EQ(loaded.scene.bsdfs.size(), 1u);
 }
 
