@@ -1,20 +1,18 @@
 #include "import/bitmap.h"
 
-#include "scene/spectrum.h"
+#include "math/half.h"
+#include "math/srgb.h"
 
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace sundog
 {
 
 namespace
 {
-
-constexpr float largest_half = 65504.0f;
 
 [[noreturn]] void unreadable(const std::filesystem::path& file, const SourceLocation& wanted_at, std::string reason)
 {
@@ -53,9 +51,7 @@ uint half_bits(float value, bool& clipped)
         clipped = true;
         value = std::isnan(value) ? 0.0f : std::copysign(largest_half, value);
     }
-    unsigned short bits = 0;
-    OIIO::convert_pixel_values(OIIO::TypeDesc::FLOAT, &value, OIIO::TypeDesc::HALF, &bits);
-    return bits;
+    return half_from_float(value);
 }
 
 std::vector<uint> pack_halves(const std::vector<float>& pixels, int channels, bool encoded, bool& clipped)
@@ -65,7 +61,7 @@ std::vector<uint> pack_halves(const std::vector<float>& pixels, int channels, bo
     texels.reserve(2 * pixels.size() / static_cast<std::size_t>(channels));
     for (std::size_t i = 0; i < pixels.size(); i += static_cast<std::size_t>(channels)) {
         uint half[3];
-        for (std::size_t c = 0; c < 3; c++) half[c] = half_bits(encoded ? srgb_decode(pixels[i + rgb[c]]) : pixels[i + rgb[c]], clipped);
+        for (std::size_t c = 0; c < 3; c++) half[c] = half_bits(encoded ? linear_from_srgb(pixels[i + rgb[c]]) : pixels[i + rgb[c]], clipped);
         texels.push_back(half[0] | half[1] << 16);
         texels.push_back(half[2]);
     }

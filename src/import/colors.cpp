@@ -2,6 +2,7 @@
 
 #include "import/text_file.h"
 #include "import/values.h"
+#include "math/srgb.h"
 #include "scene/spectrum.h"
 
 #include <algorithm>
@@ -67,7 +68,7 @@ Vec3 read_rgb(const XmlElement& element)
 Vec3 read_srgb(const XmlElement& element)
 {
     const Vec3 encoded = read_rgb(element);
-    return {srgb_decode(encoded.x), srgb_decode(encoded.y), srgb_decode(encoded.z)};
+    return {linear_from_srgb(encoded.x), linear_from_srgb(encoded.y), linear_from_srgb(encoded.z)};
 }
 
 void check_samples(const Samples& samples, const SourceLocation& where)

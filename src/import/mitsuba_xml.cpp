@@ -5,6 +5,7 @@
 #include "import/integrator_import.h"
 #include "import/sensor_import.h"
 #include "import/shape_import.h"
+#include "import/texture_budget.h"
 #include "scene/validate.h"
 
 namespace sundog
@@ -43,6 +44,7 @@ LoadedScene load_scene(const std::filesystem::path& file, const LoadOptions& opt
     const XmlScene xml = read_scene_xml(file, options.defines, loaded.warnings);
     const SceneIndex index(xml, loaded.warnings);
     import_objects(xml, index, loaded.scene);
+    fit_texture_budget(loaded.scene, options.texture_bytes, loaded.warnings);
     validate_scene(loaded.scene, loaded.warnings);
     return loaded;
 }

@@ -119,9 +119,4 @@ Vec3 blackbody_to_rgb(double kelvin)
     return non_negative(normalized_to_rgb(integrate(planck)));
 }
 
-float srgb_decode(float encoded)
-{
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
 } // namespace sundog

@@ -35,7 +35,4 @@ Vec3 emission_to_rgb(std::span<const SpectrumSample> samples);
 // Radiance of a black body (kelvin > 0) by Planck's law in W/m^2/sr/nm, reduced as by emission_to_rgb.
 Vec3 blackbody_to_rgb(double kelvin);
 
-// IEC 61966-2-1: a display value in [0, 1] to linear.
-float srgb_decode(float encoded);
-
 } // namespace sundog

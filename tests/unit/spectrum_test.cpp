@@ -1,3 +1,4 @@
+#include "math/srgb.h"
 #include "scene/spectrum.h"
 
 #include "scene/materials.h"
@@ -85,10 +86,10 @@ TEST(Spectrum, BlackBodyRadianceIsPlancks)
 
 TEST(Spectrum, SrgbDecodingMeetsItsKnots)
 {
-    EXPECT_FLOAT_EQ(srgb_decode(0.0f), 0.0f);
-    EXPECT_FLOAT_EQ(srgb_decode(1.0f), 1.0f);
-    EXPECT_NEAR(srgb_decode(0.5f), 0.21404f, 1e-5f);
-    EXPECT_NEAR(srgb_decode(0.04f), 0.04f / 12.92f, 1e-7f);
+    EXPECT_FLOAT_EQ(linear_from_srgb(0.0f), 0.0f);
+    EXPECT_FLOAT_EQ(linear_from_srgb(1.0f), 1.0f);
+    EXPECT_NEAR(linear_from_srgb(0.5f), 0.21404f, 1e-5f);
+    EXPECT_NEAR(linear_from_srgb(0.04f), 0.04f / 12.92f, 1e-7f);
 }
 
 TEST(Materials, GoldMatchesItsMeasuredSpectrum)
