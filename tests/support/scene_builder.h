@@ -11,12 +11,12 @@ namespace sundog
 // A parallelogram of two triangles whose normal is along u x v.
 inline TriangleMesh parallelogram(Vec3 corner, Vec3 u, Vec3 v)
 {
-    return {.positions = {corner, corner + u, corner + u + v, corner + v}, .normals = {}, .triangles = {{0, 1, 2}, {0, 2, 3}}};
+    return {.positions = {corner, corner + u, corner + u + v, corner + v}, .normals = {}, .uvs = {}, .triangles = {{0, 1, 2}, {0, 2, 3}}, .attributes = {}};
 }
 
 inline TriangleMesh triangle(Vec3 a, Vec3 b, Vec3 c)
 {
-    return {.positions = {a, b, c}, .normals = {}, .triangles = {{0, 1, 2}}};
+    return {.positions = {a, b, c}, .normals = {}, .uvs = {}, .triangles = {{0, 1, 2}}, .attributes = {}};
 }
 
 // Starts with one diffuse BSDF of reflectance 1/2, number 0.
