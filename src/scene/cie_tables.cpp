@@ -6,6 +6,7 @@ namespace sundog
 namespace
 {
 
+// clang-format off
 // x, y, z, D65; a row every 5 nm from 360 nm.
 constexpr CieRow rows[] = {
     {0.0001299f, 3.917e-06f, 0.0006061f, 46.6383f}, // 360
@@ -104,6 +105,8 @@ constexpr CieRow rows[] = {
     {1.77651e-06f, 6.4153e-07f, 0.0f, 58.8765f}, // 825
     {1.25114e-06f, 4.5181e-07f, 0.0f, 60.3125f}, // 830
 };
+
+// clang-format on
 
 } // namespace
 

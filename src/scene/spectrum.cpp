@@ -30,7 +30,9 @@ Cie cie_at(double wavelength)
     const double position = (wavelength - cie_lambda_min) / cie_lambda_step;
     const auto i = std::min(static_cast<std::size_t>(position), rows.size() - 2);
     const double t = position - static_cast<double>(i);
-    const auto mix = [&](float CieRow::*column) { return (1.0 - t) * static_cast<double>(rows[i].*column) + t * static_cast<double>(rows[i + 1].*column); };
+    const auto mix = [&](float CieRow::*column) {
+        return (1.0 - t) * static_cast<double>(rows[i].*column) + t * static_cast<double>(rows[i + 1].*column);
+    };
     return {{mix(&CieRow::x), mix(&CieRow::y), mix(&CieRow::z)}, mix(&CieRow::d65)};
 }
 
