@@ -255,6 +255,13 @@ TEST(ImportScene, EmittersOfEveryKind)
     EXPECT_THAT(loaded.warnings, IsEmpty());
 }
 
+TEST(ImportScene, OneNumberAsEmissionIsGreyInOldScenes)
+{
+    const auto loaded = SceneFolder().load(R"(<scene version="0.6.0"><sensor type="perspective"/><shape type="sphere"/>
+        <emitter type="constant"><spectrum name="radiance" value="3"/></emitter></scene>)");
+    EXPECT_EQ(std::get<ConstantEmitter>(loaded.scene.emitters.at(0).model).radiance, (Vec3{3, 3, 3}));
+}
+
 TEST(ImportScene, WhatChangesNothingIsNamed)
 {
     const auto loaded = SceneFolder().load(R"(<scene version="3.0.0">
