@@ -39,6 +39,20 @@ static inline uint pack_direction(float3 v)
     return q.x | (q.y << 16);
 }
 
+// Unit vector of an octahedral point.
+static inline float3 from_octahedral(float2 p)
+{
+    const float z = 1.0f - fabs(p.x) - fabs(p.y);
+    if (z < 0.0f) p = (1.0f - fabs(p.yx)) * copysign((float2)(1.0f), p);
+    return normalize((float3)(p, z));
+}
+
+static inline float3 unpack_direction(uint packed)
+{
+    const float2 q = (float2)((float)(packed & 0xffffu), (float)(packed >> 16));
+    return from_octahedral((q + 0.5f) * (1.0f / 32768.0f) - 1.0f);
+}
+
 // The same with two 12-bit coordinates, (q + 1/2) / 2^11 - 1, in the low 24 bits; error below 1.2e-3 rad.
 static inline uint pack_normal(float3 v)
 {

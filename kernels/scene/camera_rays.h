@@ -6,6 +6,11 @@
 #include "shared/camera.h"
 #include "shared/ray.h"
 
+// Programs are built for one kind of camera (-D CAMERA_KIND); without that the record itself says which it is.
+#ifndef CAMERA_KIND
+#define CAMERA_KIND camera->kind
+#endif
+
 // Paths are numbered by tiles of the crop, so that neighbours in the list are neighbours in the image.
 #define TILE_SIZE 8u
 
@@ -42,11 +47,35 @@ static inline float2 sample_filter(__global const PixelFilter* filter, float u)
     return (float2)(filter->radius * (((float)low + fraction) * (2.0f / FILTER_BINS) - 1.0f), filter->sign_scale[low]);
 }
 
-// Direction in camera space, with z = 1, through a point of the full film (pixels from its upper left).
-static inline float3 camera_direction(const Camera* camera, float2 film)
+static inline bool is_orthographic(const Camera* camera)
 {
-    const float2 ndc = 2.0f * film / (float2)((float)camera->film_width, (float)camera->film_height) - 1.0f;
-    return (float3)(-ndc.x * camera->tan_half_x, -ndc.y * camera->tan_half_y, 1.0f);
+    return CAMERA_KIND == CAMERA_ORTHOGRAPHIC;
+}
+
+static inline float2 film_size(const Camera* camera)
+{
+    return (float2)((float)camera->film_width, (float)camera->film_height);
+}
+
+// Position along axis_x and axis_y of a point of the full film (pixels from its upper left).
+static inline float2 film_position(const Camera* camera, float2 film)
+{
+    const float2 ndc = 2.0f * film / film_size(camera) - 1.0f;
+    return (float2)(camera->shift_x, camera->shift_y) - ndc * (float2)(camera->half_width, camera->half_height);
+}
+
+// The inverse of film_position.
+static inline float2 film_at(const Camera* camera, float2 position)
+{
+    const float2 centred = position - (float2)(camera->shift_x, camera->shift_y);
+    return 0.5f * film_size(camera) * (1.0f - centred / (float2)(camera->half_width, camera->half_height));
+}
+
+// In the units of half_width, squared.
+static inline float film_pixel_area(const Camera* camera)
+{
+    const float2 size = film_size(camera);
+    return 4.0f * camera->half_width * camera->half_height / (size.x * size.y);
 }
 
 static inline float3 camera_to_world(const Camera* camera, float3 v)
@@ -54,13 +83,26 @@ static inline float3 camera_to_world(const Camera* camera, float3 v)
     return unpack(camera->axis_x) * v.x + unpack(camera->axis_y) * v.y + unpack(camera->axis_z) * v.z;
 }
 
+static inline float3 world_to_camera(const Camera* camera, float3 v)
+{
+    return (float3)(dot(v, unpack(camera->axis_x)), dot(v, unpack(camera->axis_y)), dot(v, unpack(camera->axis_z)));
+}
+
+// A point of the aperture, which lies about the place where the ray in the lens's middle crosses it.
+static inline float2 sample_aperture(const Camera* camera, float2 u)
+{
+    return camera->aperture_radius > 0.0f ? camera->aperture_radius * sample_disk(u) : (float2)(0.0f);
+}
+
 static inline Ray camera_ray(const Camera* camera, float2 film, float2 lens)
 {
-    float3 direction = camera_direction(camera, film);
-    float3 origin = (float3)(0.0f);
+    const float2 position = film_position(camera, film);
+    float3 origin = (float3)(is_orthographic(camera) ? position : (float2)(0.0f), 0.0f);
+    float3 direction = (float3)(is_orthographic(camera) ? (float2)(0.0f) : position, 1.0f);
     if (camera->aperture_radius > 0.0f) {
-        origin.xy = camera->aperture_radius * sample_disk(lens);
-        direction = direction - origin / camera->focus_distance; // towards the point in focus; z stays 1
+        const float2 aperture = sample_aperture(camera, lens);
+        origin.xy += aperture;
+        direction.xy -= aperture / camera->focus_distance; // towards the point in focus; z stays 1
     }
     // Distances along camera z become ray parameters by the ray's length per unit of z.
     const float length_per_z = length(direction);
@@ -73,35 +115,62 @@ static inline Ray camera_ray(const Camera* camera, float2 film, float2 lens)
     return ray;
 }
 
+// From the camera, as the depth channel has it: from the lens, or orthographic from the film's plane.
+static inline float camera_distance(const Camera* camera, float3 point)
+{
+    const float3 to_point = point - unpack(camera->position);
+    return is_orthographic(camera) ? dot(to_point, unpack(camera->axis_z)) : length(to_point);
+}
+
 // How a point on the lens sees a point of the scene.
 typedef struct CameraConnection {
-    float3 lens;       // on the aperture
+    float3 lens;       // on the aperture; orthographic without one: on the film, straight before the point
     float2 film;       // full film, pixels
     float importance;  // We / pdf of the lens point, per pixel area: times cos / d^2 at the scene it gives 1 / m^2
-    bool visible;      // within field of view and clip planes
+    bool visible;      // within the clip planes; whether within the film is for the caller to see
 } CameraConnection;
 
 // [Veach 1997, section 8.3.2]; We of a pinhole camera is 1 / (A cos^3) for a film of area A at distance 1, with
 // the cosine at the lens taken out here because the caller's geometry term has none.
-static inline CameraConnection connect_to_camera(const Camera* camera, float3 point, float2 u)
+static inline CameraConnection connect_perspective(const Camera* camera, float3 point, float2 u)
 {
     CameraConnection connection;
-    float3 lens = (float3)(0.0f);
-    if (camera->aperture_radius > 0.0f) lens.xy = camera->aperture_radius * sample_disk(u);
-    connection.lens = unpack(camera->position) + camera_to_world(camera, lens);
-    const float3 to_point = point - connection.lens;
-    const float z = dot(to_point, unpack(camera->axis_z));
-    connection.visible = z > camera->near_clip && z < camera->far_clip;
-    float3 direction = (float3)(dot(to_point, unpack(camera->axis_x)), dot(to_point, unpack(camera->axis_y)), z) / z;
+    const float2 lens = sample_aperture(camera, u);
+    connection.lens = unpack(camera->position) + camera_to_world(camera, (float3)(lens, 0.0f));
+    const float3 to_point = world_to_camera(camera, point - connection.lens);
+    connection.visible = to_point.z > camera->near_clip && to_point.z < camera->far_clip;
+    const float3 direction = to_point / to_point.z; // z = 1: its length is 1 / cos at the lens
     // Where the ray through the lens point meets the plane in focus decides the film position.
-    if (camera->aperture_radius > 0.0f) direction += lens / camera->focus_distance;
-    const float2 size = (float2)((float)camera->film_width, (float)camera->film_height);
-    connection.film = 0.5f * size * (1.0f - direction.xy / (float2)(camera->tan_half_x, camera->tan_half_y));
-    const float3 to_film = to_point / z; // z = 1: its length is 1 / cos at the lens
-    const float inverse_cos = length(to_film);
-    const float pixel_area = 4.0f * camera->tan_half_x * camera->tan_half_y / (size.x * size.y);
-    connection.importance = inverse_cos * inverse_cos * inverse_cos / pixel_area;
+    const float2 refraction = camera->aperture_radius > 0.0f ? lens / camera->focus_distance : (float2)(0.0f);
+    connection.film = film_at(camera, direction.xy + refraction);
+    const float inverse_cos = length(direction);
+    connection.importance = inverse_cos * inverse_cos * inverse_cos / film_pixel_area(camera);
     return connection;
+}
+
+// Each lens point has one direction in which all of the film looks: We is a delta in direction, and what connects is
+// a density over the film's plane. An area dA at the scene covers dA cos / cos_z of that plane (cos_z: between the
+// direction and axis_z), so that importance * cos / d^2 = cos / (cos_z * area of a pixel): the distance cancels.
+static inline CameraConnection connect_orthographic(const Camera* camera, float3 point, float2 u)
+{
+    CameraConnection connection;
+    const float3 to_point = world_to_camera(camera, point - unpack(camera->position));
+    connection.visible = to_point.z > camera->near_clip && to_point.z < camera->far_clip;
+    const float2 lens = sample_aperture(camera, u);
+    // The ray leaves from film + lens and is back at film in the plane in focus.
+    const float2 slope = camera->aperture_radius > 0.0f ? -lens / camera->focus_distance : (float2)(0.0f);
+    const float2 origin = to_point.xy - slope * to_point.z;
+    connection.lens = unpack(camera->position) + camera_to_world(camera, (float3)(origin, 0.0f));
+    connection.film = film_at(camera, origin - lens);
+    const float inverse_cos = length((float3)(slope, 1.0f));
+    const float distance = to_point.z * inverse_cos;
+    connection.importance = distance * distance * inverse_cos / film_pixel_area(camera);
+    return connection;
+}
+
+static inline CameraConnection connect_to_camera(const Camera* camera, float3 point, float2 u)
+{
+    return is_orthographic(camera) ? connect_orthographic(camera, point, u) : connect_perspective(camera, point, u);
 }
 
 #endif

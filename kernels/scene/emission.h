@@ -6,6 +6,7 @@
 typedef struct EmissionSample {
     Ray ray;
     float3 flux; // radiance * cos / pdf, W; the choice of the light is in it
+    bool from_delta_light;
 } EmissionSample;
 
 static inline Ray emission_ray(float3 origin, float3 direction)
@@ -35,6 +36,7 @@ static inline EmissionSample sample_emission(const SurfaceView* scene, float4 u,
     const float3 emission = unpack(light.emission) / light.probability;
     const float disk_area = PI_F * scene->globals->radius * scene->globals->radius;
     EmissionSample sample;
+    sample.from_delta_light = LIGHT_IS_DELTA(light.type);
     switch (light.type) {
     case LIGHT_POINT:
         sample.ray = emission_ray(unpack(light.position), sample_sphere(u_direction));

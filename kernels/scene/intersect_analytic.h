@@ -1,4 +1,4 @@
-// Intersection of a ray with spheres and disks.
+// Intersection of a ray with spheres, disks and cylinders.
 #ifndef SUNDOG_INTERSECT_ANALYTIC_H
 #define SUNDOG_INTERSECT_ANALYTIC_H
 #include "math/vec3.h"
@@ -6,27 +6,46 @@
 #include "shared/geometry.h"
 #include "shared/ray.h"
 
-// Smallest t > 0, or INFINITY. The discriminant comes from the ray's closest
+// Where |from_center + t * direction| is the radius: the lower t and the higher,
+// INFINITY both where it never is. The discriminant comes from the ray's closest
 // approach to the centre, which does not cancel for small or far spheres, and
 // the roots from the form without subtraction: Haines, Guenther and Akenine-
 // Moeller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing
 // Gems, 2019, ch. 7.
-static inline float intersect_sphere(float3 origin, float3 direction, float3 center, float radius)
+static inline float2 distances_at_radius(float3 from_center, float3 direction, float radius)
 {
-    const float3 from_center = origin - center;
     const float a = dot(direction, direction);
     const float b = -dot(from_center, direction);
     const float3 closest = from_center + (b / a) * direction;
     const float discriminant = radius * radius - dot(closest, closest);
-    if (!(discriminant >= 0.0f)) return INFINITY;
+    if (!(discriminant >= 0.0f)) return (float2)(INFINITY);
     const float distance = sqrt(dot(from_center, from_center));
     const float c = (distance - radius) * (distance + radius);
     const float q = b + copysign(sqrt(a * discriminant), b);
     const float t0 = q == 0.0f ? 0.0f : c / q; // q = 0: a tangent that starts at the sphere
     const float t1 = q / a;
-    const float low = t0 < t1 ? t0 : t1;
-    const float high = t0 < t1 ? t1 : t0;
-    return low > 0.0f ? low : high > 0.0f ? high : INFINITY;
+    return t0 < t1 ? (float2)(t0, t1) : (float2)(t1, t0);
+}
+
+// Smallest t > 0, or INFINITY.
+static inline float intersect_sphere(float3 origin, float3 direction, float3 center, float radius)
+{
+    const float2 t = distances_at_radius(origin - center, direction, radius);
+    return t.x > 0.0f ? t.x : t.y > 0.0f ? t.y : INFINITY;
+}
+
+// Smallest t > 0 between the ends, or INFINITY. Across the axis a cylinder is a
+// circle; a ray along the axis misses.
+static inline float intersect_cylinder(float3 origin, float3 direction, float3 start, float3 axis, float length, float radius)
+{
+    const float3 from_start = origin - start;
+    const float height = dot(from_start, axis), slope = dot(direction, axis);
+    const float3 across = direction - slope * axis;
+    if (dot(across, across) == 0.0f) return INFINITY;
+    const float2 t = distances_at_radius(from_start - height * axis, across, radius);
+    const float low = height + t.x * slope, high = height + t.y * slope;
+    if (t.x > 0.0f && low >= 0.0f && low <= length) return t.x;
+    return t.y > 0.0f && high >= 0.0f && high <= length ? t.y : INFINITY;
 }
 
 // t > 0, or INFINITY. The axes span the disk but need not be orthogonal: an
@@ -52,6 +71,8 @@ static inline float intersect_analytic_primitive(AnalyticPrimitive primitive, Ra
 {
     const float3 origin = unpack(ray.origin), direction = unpack(ray.direction), center = unpack(primitive.center);
     if (primitive.kind == ANALYTIC_SPHERE) return intersect_sphere(origin, direction, center, primitive.radius);
+    if (primitive.kind == ANALYTIC_CYLINDER)
+        return intersect_cylinder(origin, direction, center, unpack(primitive.normal), primitive.length, primitive.radius);
     return intersect_disk(origin, direction, center, unpack(primitive.axis_u), unpack(primitive.axis_v), unpack(primitive.normal));
 }
 

@@ -52,6 +52,13 @@ static inline LightPoint sample_light_point(const SurfaceView* scene, const Ligh
         point.position = center + outwards * primitive.radius;
         point.normal = (scene->shapes[primitive.shape].flags & SHAPE_FLIP_NORMALS) ? -outwards : outwards;
         point.offset = OFFSET_PER_COORDINATE * (max_abs(center) + primitive.radius);
+    } else if (light->type == LIGHT_CYLINDER) {
+        float cosine;
+        const float sine = sincos(2.0f * PI_F * u.x, &cosine);
+        const float3 outwards = cosine * unpack(primitive.axis_u) + sine * unpack(primitive.axis_v);
+        point.position = center + (u.y * primitive.length) * unpack(primitive.normal) + outwards * primitive.radius;
+        point.normal = (scene->shapes[primitive.shape].flags & SHAPE_FLIP_NORMALS) ? -outwards : outwards;
+        point.offset = OFFSET_PER_COORDINATE * (max_abs(center) + primitive.radius + primitive.length);
     } else {
         const float2 d = sample_disk(u);
         point.position = center + d.x * unpack(primitive.axis_u) + d.y * unpack(primitive.axis_v);

@@ -1,8 +1,14 @@
 // The surface at a hit: position, normals, and what lies there.
 #ifndef SUNDOG_SURFACE_H
 #define SUNDOG_SURFACE_H
+#include "math/frame.h"
 #include "math/vec3.h"
 #include "scene/scene_view.h"
+
+// -D HAS_UV=1 where something in the scene asks for texture coordinates: textures, anisotropy, bumps.
+#ifndef HAS_UV
+#define HAS_UV 1
+#endif
 
 typedef struct Surface {
     float3 position;
@@ -12,6 +18,12 @@ typedef struct Surface {
     float offset;            // how far rays must start off the surface to leave it
     uint shape;
     uint primitive;
+#if HAS_UV
+    float2 uv;
+    float2 barycentric; // of the triangle's second and third vertex
+    float3 dpdu;        // how the position moves with u
+    float3 dpdv;
+#endif
 } Surface;
 
 // Rounding errors of a hit point are a few ulp of the coordinates it was computed from: offsets scale
@@ -19,6 +31,67 @@ typedef struct Surface {
 #define OFFSET_PER_COORDINATE 4e-6f
 
 static inline float max_abs(float3 v) { return max3(fabs(v)); }
+
+#if HAS_UV
+// Texture coordinates of a triangle, and how its plane moves with them. Without any in the mesh they are the
+// barycentric weights, as in Mitsuba, and the tangents any frame.
+static inline void triangle_uv(const SurfaceView* scene, const Triangle* triangle, Hit hit, float3 ab, float3 ac, Surface* surface)
+{
+    surface->barycentric = (float2)(hit.u, hit.v);
+    const Frame any = make_frame(surface->geometric_normal);
+    surface->dpdu = any.s;
+    surface->dpdv = any.t;
+    surface->uv = surface->barycentric;
+    if (!(scene->shapes[triangle->shape].flags & SHAPE_HAS_UVS)) return;
+    const Vec2 a = scene->uvs[triangle->vertex[0]], b = scene->uvs[triangle->vertex[1]], c = scene->uvs[triangle->vertex[2]];
+    const float2 uv_a = (float2)(a.x, a.y);
+    const float2 uv_ab = (float2)(b.x, b.y) - uv_a, uv_ac = (float2)(c.x, c.y) - uv_a;
+    surface->uv = uv_a + uv_ab * hit.u + uv_ac * hit.v;
+    const float determinant = uv_ab.x * uv_ac.y - uv_ab.y * uv_ac.x;
+    if (determinant == 0.0f) return;
+    surface->dpdu = (ab * uv_ac.y - ac * uv_ab.y) / determinant;
+    surface->dpdv = (ac * uv_ab.x - ab * uv_ac.x) / determinant;
+}
+
+// Turn [0, 1) about z of a point of the plane.
+static inline float turn_of(float x, float y)
+{
+    const float turn = atan2(y, x) * (0.5f / 3.14159265358979f);
+    return turn < 0.0f ? turn + 1.0f : turn;
+}
+
+// Mitsuba's parametrisations. Sphere: (azimuth, polar angle) as fractions of 2 pi and pi; cylinder: (azimuth, height);
+// disk: (radius, azimuth).
+static inline void analytic_uv(const AnalyticPrimitive* primitive, Surface* surface)
+{
+    const float3 axis_u = unpack(primitive->axis_u), axis_v = unpack(primitive->axis_v), axis_n = unpack(primitive->normal);
+    surface->barycentric = (float2)(0.0f);
+    const float3 local_position = surface->position - unpack(primitive->center);
+    if (primitive->kind == ANALYTIC_SPHERE) {
+        const float3 outwards = local_position / primitive->radius;
+        const float x = dot(outwards, axis_u), y = dot(outwards, axis_v), z = dot(outwards, axis_n);
+        const float sine = sqrt(x * x + y * y);
+        surface->uv = (float2)(turn_of(x, y), atan2(sine, z) * (1.0f / 3.14159265358979f));
+        const float2 around = sine > 1e-6f ? (float2)(x, y) / sine : (float2)(1.0f, 0.0f);
+        surface->dpdu = (axis_v * around.x - axis_u * around.y) * (2.0f * 3.14159265358979f * primitive->radius * fmax(sine, 1e-6f));
+        surface->dpdv = ((axis_u * around.x + axis_v * around.y) * z - axis_n * sine) * (3.14159265358979f * primitive->radius);
+        return;
+    }
+    if (primitive->kind == ANALYTIC_CYLINDER) {
+        const float x = dot(local_position, axis_u), y = dot(local_position, axis_v);
+        surface->uv = (float2)(turn_of(x, y), dot(local_position, axis_n) / primitive->length);
+        surface->dpdu = (axis_v * x - axis_u * y) * (2.0f * 3.14159265358979f);
+        surface->dpdv = axis_n * primitive->length;
+        return;
+    }
+    const float x = dot(local_position, axis_u) / dot(axis_u, axis_u), y = dot(local_position, axis_v) / dot(axis_v, axis_v);
+    const float radius = sqrt(x * x + y * y);
+    surface->uv = (float2)(radius, turn_of(x, y));
+    const float2 around = radius > 1e-6f ? (float2)(x, y) / radius : (float2)(1.0f, 0.0f);
+    surface->dpdu = axis_u * around.x + axis_v * around.y;
+    surface->dpdv = (axis_v * around.x - axis_u * around.y) * (2.0f * 3.14159265358979f * fmax(radius, 1e-6f));
+}
+#endif
 
 static inline void triangle_surface(const SurfaceView* scene, Hit hit, Surface* surface)
 {
@@ -39,6 +112,9 @@ static inline void triangle_surface(const SurfaceView* scene, Hit hit, Surface* 
         const float length_squared = dot(n, n);
         if (length_squared > 1e-12f) surface->shading_normal = n * rsqrt(length_squared);
     }
+#if HAS_UV
+    triangle_uv(scene, &triangle, hit, b - a, c - a, surface);
+#endif
 }
 
 static inline void analytic_surface(const SurfaceView* scene, Hit hit, float3 point, Surface* surface)
@@ -50,6 +126,13 @@ static inline void analytic_surface(const SurfaceView* scene, Hit hit, float3 po
         surface->position = center + outwards * primitive.radius; // back onto the sphere
         surface->geometric_normal = (scene->shapes[primitive.shape].flags & SHAPE_FLIP_NORMALS) ? -outwards : outwards;
         surface->offset = OFFSET_PER_COORDINATE * (max_abs(center) + primitive.radius);
+    } else if (primitive.kind == ANALYTIC_CYLINDER) {
+        const float3 axis = unpack(primitive.normal);
+        const float height = dot(point - center, axis);
+        const float3 outwards = normalize(point - center - axis * height);
+        surface->position = center + axis * clamp(height, 0.0f, primitive.length) + outwards * primitive.radius;
+        surface->geometric_normal = (scene->shapes[primitive.shape].flags & SHAPE_FLIP_NORMALS) ? -outwards : outwards;
+        surface->offset = OFFSET_PER_COORDINATE * (max_abs(center) + primitive.radius + primitive.length);
     } else {
         const float3 normal = unpack(primitive.normal);
         surface->position = point - normal * dot(point - center, normal);
@@ -58,6 +141,9 @@ static inline void analytic_surface(const SurfaceView* scene, Hit hit, float3 po
     }
     surface->shading_normal = surface->geometric_normal;
     surface->shape = primitive.shape;
+#if HAS_UV
+    analytic_uv(&primitive, surface);
+#endif
 }
 
 static inline Surface surface_at(const SurfaceView* scene, Ray ray, Hit hit)

@@ -1,34 +1,82 @@
-// Surface scattering: the record of one BSDF.
+// Surface scattering: the record of one BSDF, and the lobes that BSDFs are mixtures of.
 #ifndef SUNDOG_SHARED_BSDF_H
 #define SUNDOG_SHARED_BSDF_H
+#include "shared/texture.h"
 #include "shared/vec3.h"
 SHARED_BEGIN
 
-#define BSDF_DIFFUSE 0u         // reflectance
-#define BSDF_DIELECTRIC 1u      // eta, reflectance and transmittance (both 1 in nature)
-#define BSDF_THIN_DIELECTRIC 2u // the same, for a pane without thickness
-#define BSDF_CONDUCTOR 3u       // eta_rgb, k_rgb, reflectance
-#define BSDF_NULL 4u            // lets all light pass
+#define BSDF_DIFFUSE 0u          // reflectance
+#define BSDF_DIELECTRIC 1u       // eta, specular and transmittance (both 1 in nature)
+#define BSDF_THIN_DIELECTRIC 2u  // the same, for a pane without thickness
+#define BSDF_CONDUCTOR 3u        // eta_rgb, k_rgb, specular
+#define BSDF_NULL 4u             // lets all light pass
+#define BSDF_ROUGH_CONDUCTOR 5u  // as a conductor, with alpha
+#define BSDF_ROUGH_DIELECTRIC 6u // as a dielectric, with alpha
+#define BSDF_MASK 7u             // nested[0] with probability `weight`, else null
+#define BSDF_BLEND 8u            // nested[1] with probability `weight`, else nested[0]
 
 // Scatters on both sides: the back by the BSDF `back`. Without it, the back of
 // an opaque BSDF is black, as in Mitsuba.
 #define BSDF_TWO_SIDED 1u
+// Some lobe that is not specular; and one that is neither specular nor narrow. Of a two-sided BSDF: of its front.
+#define BSDF_HAS_SMOOTH 2u
+#define BSDF_HAS_BROAD 4u
+// Black from behind, whatever lobe a path chooses: opaque, and not two-sided.
+#define BSDF_BLACK_BACK 16u
+// The microfacets' normals are distributed by Beckmann's law; else by Trowbridge and Reitz's (GGX).
+#define BSDF_BECKMANN 8u
+
+// Reflections narrower than this roughness are followed by paths that look for photons, as specular
+// ones are: few photons arrive from where they look. So is ground glass of any roughness, which photons
+// mostly pass.
+#define NARROW_ALPHA 0.15f
 
 typedef struct Bsdf {
     uint type;
     uint flags;
     uint back;
     float eta; // interior over exterior index of refraction; the normal points to the exterior
-    Vec3 reflectance;
-    float unused0;
-    Vec3 transmittance;
-    float unused1;
+    TexturedColor reflectance; // of what is diffuse
+    TexturedColor specular;    // factor on what is reflected at the interface
+    TexturedColor transmittance;
     Vec3 eta_rgb; // complex index of refraction relative to the exterior, for red, green and blue
-    float unused2;
+    float unused0;
     Vec3 k_rgb;
-    float unused3;
+    float unused1;
+    TexturedNumber alpha_u; // roughness along the texture's u (root mean square slope, times sqrt(2))
+    TexturedNumber alpha_v;
+    TexturedNumber weight; // of a mask or blend
+    uint nested[2];
 } Bsdf;
-SHARED_SIZE(Bsdf, 80);
+SHARED_SIZE(Bsdf, 128);
+
+// What a path meets at a surface once it has chosen: kernels/scene/lobes has a file for each.
+#define LOBE_DIFFUSE 0u
+#define LOBE_DIELECTRIC 1u
+#define LOBE_THIN_DIELECTRIC 2u
+#define LOBE_CONDUCTOR 3u
+#define LOBE_NULL 4u
+#define LOBE_ROUGH_CONDUCTOR 5u
+#define LOBE_ROUGH_DIELECTRIC 6u
+
+// A lobe in memory (kernels/scene/scattering.h has it in registers), for queries that evaluate it later.
+typedef struct LobeRecord {
+    uint lobe;
+    uint flags;
+    float eta;
+    float alpha_u;
+    float alpha_v;
+    Vec3 normal;
+    Vec3 tangent;
+    Vec3 outgoing;
+    Vec3 geometric_normal;
+    Vec3 reflectance;
+    Vec3 transmittance;
+    Vec3 eta_rgb;
+    Vec3 k_rgb;
+    uint unused[3];
+} LobeRecord;
+SHARED_SIZE(LobeRecord, 128);
 
 SHARED_END
 #endif

@@ -13,10 +13,14 @@ SHARED_SIZE(Triangle, 16);
 
 #define ANALYTIC_SPHERE 0u
 #define ANALYTIC_DISK 1u
+#define ANALYTIC_CYLINDER 2u
 
 // Sphere: centre and radius. Disk (or ellipse): centre + a * axis_u + b * axis_v
 // with a^2 + b^2 <= 1; normal is unit length. The normal of a sphere points
-// outwards, unless its shape has SHAPE_FLIP_NORMALS.
+// outwards, unless its shape has SHAPE_FLIP_NORMALS; its axis_u, axis_v and normal
+// are the unit axes x, y and z of its texture coordinates. Cylinder, open at both
+// ends: from center to center + length * normal, all three axes of unit length;
+// its normals as a sphere's.
 typedef struct AnalyticPrimitive {
     Vec3 center;
     float radius;
@@ -25,12 +29,13 @@ typedef struct AnalyticPrimitive {
     Vec3 axis_v;
     uint shape;
     Vec3 normal;
-    float unused;
+    float length; // of a cylinder
 } AnalyticPrimitive;
 SHARED_SIZE(AnalyticPrimitive, 64);
 
 #define SHAPE_HAS_NORMALS 1u  // interpolate `normals` at triangles
-#define SHAPE_FLIP_NORMALS 2u // a sphere whose normals point inwards
+#define SHAPE_FLIP_NORMALS 2u // a sphere or cylinder whose normals point inwards
+#define SHAPE_HAS_UVS 4u      // interpolate `uvs` at triangles
 
 #define NO_LIGHT 0xffffffffu
 

@@ -12,6 +12,10 @@ SHARED_BEGIN
 #define LIGHT_SPOT 4u        // emission: radiant intensity on the axis (W/sr)
 #define LIGHT_DIRECTIONAL 5u // emission: irradiance across the direction (W/m^2)
 #define LIGHT_CONSTANT 6u    // emission: radiance from all directions (W/m^2/sr)
+#define LIGHT_CYLINDER 7u    // as LIGHT_TRIANGLE
+
+// Whether paths can only start there, never arrive.
+#define LIGHT_IS_DELTA(type) ((type) == LIGHT_POINT || (type) == LIGHT_SPOT || (type) == LIGHT_DIRECTIONAL)
 
 typedef struct Light {
     uint type;

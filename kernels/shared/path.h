@@ -12,11 +12,14 @@ typedef struct PathState {
     uint depth;      // edges so far, counting the ray under way
     uint scattered;  // non-specular scatterings so far
     float eta_scale; // product of squared relative indices: what Russian roulette must not count as loss
-    uint unused;
+    uint flags;
 } PathState;
 SHARED_SIZE(PathState, 32);
 
 #define PDF_DELTA 0.0f
+
+// A light path from a point or a direction: no camera path can hit its light.
+#define PATH_FROM_DELTA_LIGHT 1u
 
 // max_depth: most edges of a whole path from light to camera, UNBOUNDED_DEPTH for no bound.
 // rr_depth: Russian roulette starts at this vertex.

@@ -9,9 +9,15 @@ typedef struct Photon {
     Vec3 position;
     uint direction; // of propagation, packed
     Vec3 flux;      // W, not divided by the number of emitted subpaths; the BSDF here is not in it
-    uint normal_depth; // low 24 bits: packed normal on the side the light came from; high 8: edges so far, at most 255
+    uint normal_depth; // low 24 bits: packed normal on the side the light came from; then PHOTON_UNREACHED; high 7: edges so far
 } Photon;
 SHARED_SIZE(Photon, 32);
+
+// From a light that no path can hit, by specular surfaces alone: a camera path that is followed beyond the photon's
+// place cannot find it.
+#define PHOTON_UNREACHED (1u << 24)
+#define PHOTON_DEPTH_SHIFT 25u
+#define PHOTON_MAX_DEPTH 127u // deeper ones count as this deep
 
 // In the map photons lie as structure of arrays: eight streams, each `stride` long.
 #define PHOTON_X 0u
@@ -42,14 +48,19 @@ typedef struct PhotonGrid {
 } PhotonGrid;
 SHARED_SIZE(PhotonGrid, 48);
 
+// What a query asks for.
+#define QUERY_EVALUATES_LOBE 1u // f depends on the photon's direction: its LobeRecord says how
+#define QUERY_BOTH_SIDES 2u     // the lobe transmits
+#define QUERY_UNREACHED_ONLY 4u // the camera path goes on from here and finds all the other photons' paths
+
 // Where a camera path asks for photons.
 typedef struct GatherQuery {
     Vec3 position;
     float radius;    // 0: no query
-    Vec3 throughput; // beta of the camera path, times the BSDF: for a diffuse surface beta * rho / pi
+    Vec3 throughput; // beta of the camera path, times f where that does not depend on the photon: for a diffuse lobe beta * rho / pi
     uint max_photon_depth; // photons with more edges would exceed max_depth
     Vec3 normal;     // on the side that the camera sees
-    uint pixel;
+    uint flags;
 } GatherQuery;
 SHARED_SIZE(GatherQuery, 48);
 

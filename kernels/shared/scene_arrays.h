@@ -7,6 +7,8 @@
 #include "shared/geometry.h"
 #include "shared/light.h"
 #include "shared/ray.h"
+#include "shared/texture.h"
+#include "shared/vec2.h"
 SHARED_BEGIN
 
 typedef struct SceneGlobals {
@@ -15,7 +17,7 @@ typedef struct SceneGlobals {
     uint light_count;
     uint constant_light; // index of the constant environment light, or NO_LIGHT
     int bvh_root;        // as BvhNode::child
-    uint unused;
+    uint attribute_count; // distinct names of mesh attributes; attribute_ranges has so many a shape
 } SceneGlobals;
 SHARED_SIZE(SceneGlobals, 32);
 
@@ -29,6 +31,11 @@ SHARED_SIZE(SceneGlobals, 32);
     X(Triangle, triangles)                                                                         \
     X(Vec3, positions)                                                                             \
     X(Vec3, normals)                                                                               \
+    X(Vec2, uvs)                                                                                   \
+    X(AttributeRange, attribute_ranges)                                                            \
+    X(Vec3, attribute_values)                                                                      \
+    X(Texture, textures)                                                                           \
+    X(uint, texels)                                                                                \
     X(Shape, shapes)                                                                               \
     X(Bsdf, bsdfs)                                                                                 \
     X(Light, lights)                                                                               \

@@ -4,12 +4,17 @@
 // (kernels/estimators) is the program's prelude. Used by the photon mapping methods.
 #include "density/photon_grid.h"
 #include "math/simd8.h"
+#include "shared/bsdf.h"
+// -D GATHERS_LOBES=1 where queries may come from lobes other than diffuse ones.
+#if GATHERS_LOBES
+#include "scene/bsdf.h"
+#endif
 
 // Photons whose normal is further than this from the query's lie on another surface.
 #define MIN_NORMAL_COSINE 0.7f
 
-// Lanes whose packed normal is close to the query's: n . m > c |m| for the unnormalised octahedral m.
-static inline int8 on_same_side(uint8 packed, float3 normal)
+// Lanes whose packed normal is close to the query's (or, for a lobe that transmits, to its opposite): n . m > c |m| for the unnormalised octahedral m.
+static inline int8 on_same_side(uint8 packed, float3 normal, bool both_sides)
 {
     float8 x = convert_float8(as_int8(packed & 0xfffu)) * (1.0f / 2048.0f) - (2047.5f / 2048.0f);
     float8 y = convert_float8(as_int8((packed >> 12) & 0xfffu)) * (1.0f / 2048.0f) - (2047.5f / 2048.0f);
@@ -19,18 +24,56 @@ static inline int8 on_same_side(uint8 packed, float3 normal)
     x -= copysign(fold, x);
     y -= copysign(fold, y);
     const float8 cosine = x * normal.x + y * normal.y + z * normal.z;
-    return (cosine > 0.0f) & (cosine * cosine > (MIN_NORMAL_COSINE * MIN_NORMAL_COSINE) * (x * x + y * y + z * z));
+    return ((cosine > 0.0f) | (int8)(both_sides ? -1 : 0)) & (cosine * cosine > (MIN_NORMAL_COSINE * MIN_NORMAL_COSINE) * (x * x + y * y + z * z));
 }
 
 static inline float8 load_stream(__global const float* streams, uint stream, uint stride, uint i) { return vload8(0, streams + (size_t)stream * stride + i); }
 
+// Lanes that the query asks for, whose photons make no path too long.
+static inline int8 wanted(uint8 normal_depth, const GatherQuery* query)
+{
+    const uint8 max_depth = (uint8)(min(query->max_photon_depth, PHOTON_MAX_DEPTH));
+    int8 mask = on_same_side(normal_depth, unpack(query->normal), (query->flags & QUERY_BOTH_SIDES) != 0u);
+    mask &= as_int8((normal_depth >> PHOTON_DEPTH_SHIFT) <= max_depth);
+    if (query->flags & QUERY_UNREACHED_ONLY) mask &= as_int8((normal_depth & PHOTON_UNREACHED) != 0u);
+    return mask;
+}
+
+typedef struct Flux8 {
+    float8 red, green, blue;
+} Flux8;
+
+#if GATHERS_LOBES
+// Flux times f of the photons in the mask, one after another; zero for the others.
+static inline Flux8 scattered_flux(Flux8 flux, uint8 directions, int8 mask, const LobeRecord* record)
+{
+    float red[8], green[8], blue[8];
+    uint direction[8];
+    int lane_mask[8];
+    vstore8(flux.red, 0, red);
+    vstore8(flux.green, 0, green);
+    vstore8(flux.blue, 0, blue);
+    vstore8(directions, 0, direction);
+    vstore8(mask, 0, lane_mask);
+    Surface surface;
+    const Scattering scattering = unpack_lobe(record, &surface);
+    for (int i = 0; i < 8; ++i) {
+        const float3 f = lane_mask[i] ? bsdf_evaluate(&scattering, &surface, -unpack_direction(direction[i]), CARRIES_RADIANCE) : (float3)(0.0f);
+        red[i] = lane_mask[i] ? red[i] * f.x : 0.0f;
+        green[i] = lane_mask[i] ? green[i] * f.y : 0.0f;
+        blue[i] = lane_mask[i] ? blue[i] * f.z : 0.0f;
+    }
+    const Flux8 scattered = {vload8(0, red), vload8(0, green), vload8(0, blue)};
+    return scattered;
+}
+#endif
+
 // The estimate goes in and comes out by value, so that it stays in registers through the loop.
-static inline Estimate gather_run(PhotonRun run, const GatherQuery* query, __global const float* streams, uint stride, Estimate estimate)
+static inline Estimate gather_run(PhotonRun run, const GatherQuery* query, const LobeRecord* lobe, __global const float* streams, uint stride, Estimate estimate)
 {
     const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
-    const float3 position = unpack(query->position), normal = unpack(query->normal);
+    const float3 position = unpack(query->position);
     const float inverse_radius_squared = 1.0f / (query->radius * query->radius);
-    const uint8 max_depth = (uint8)(min(query->max_photon_depth, 255u));
     for (uint i = run.begin; i < run.end; i += 8u) {
         const float8 dx = load_stream(streams, PHOTON_X, stride, i) - position.x;
         const float8 dy = load_stream(streams, PHOTON_Y, stride, i) - position.y;
@@ -39,15 +82,19 @@ static inline Estimate gather_run(PhotonRun run, const GatherQuery* query, __glo
         int8 mask = (t_squared < 1.0f) & (lane < (int8)((int)(run.end - i)));
         if (!mask8(mask)) continue;
         const uint8 normal_depth = as_uint8(load_stream(streams, PHOTON_NORMAL_DEPTH, stride, i));
-        mask &= on_same_side(normal_depth, normal) & as_int8((normal_depth >> 24) <= max_depth);
-        estimator_add(&estimate, mask, t_squared, load_stream(streams, PHOTON_RED, stride, i), load_stream(streams, PHOTON_GREEN, stride, i),
-                      load_stream(streams, PHOTON_BLUE, stride, i));
+        mask &= wanted(normal_depth, query);
+        Flux8 flux = {load_stream(streams, PHOTON_RED, stride, i), load_stream(streams, PHOTON_GREEN, stride, i), load_stream(streams, PHOTON_BLUE, stride, i)};
+#if GATHERS_LOBES
+        if (query->flags & QUERY_EVALUATES_LOBE)
+            flux = scattered_flux(flux, as_uint8(load_stream(streams, PHOTON_DIRECTION, stride, i)), mask, lobe);
+#endif
+        estimator_add(&estimate, mask, t_squared, flux.red, flux.green, flux.blue);
     }
     return estimate;
 }
 
 __kernel void gather_photons(PhotonGrid grid, __global const uint* restrict cell_ends, uint cell_ends_offset, __global const float* restrict streams,
-                             __global const GatherQuery* restrict queries, uint count, __global GatherSum* restrict sums)
+                             __global const GatherQuery* restrict queries, __global const LobeRecord* restrict query_lobes, uint count, __global GatherSum* restrict sums)
 {
     const uint index = get_global_id(0);
     if (index >= count) return;
@@ -56,9 +103,11 @@ __kernel void gather_photons(PhotonGrid grid, __global const uint* restrict cell
     if (query.radius > 0.0f) {
         PhotonRun runs[8];
         const uint run_count = find_photon_runs(&grid, cell_ends + cell_ends_offset, unpack(query.position), runs);
+        LobeRecord lobe;
+        if (GATHERS_LOBES && (query.flags & QUERY_EVALUATES_LOBE)) lobe = query_lobes[index];
         Estimate estimate;
         estimator_begin(&estimate);
-        for (uint i = 0u; i < run_count; ++i) estimate = gather_run(runs[i], &query, streams, grid.stride, estimate);
+        for (uint i = 0u; i < run_count; ++i) estimate = gather_run(runs[i], &query, &lobe, streams, grid.stride, estimate);
         sum = estimator_end(&estimate, query.radius);
     }
     sums[index] = sum;

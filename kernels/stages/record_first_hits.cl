@@ -1,21 +1,23 @@
 // Adds what the camera sees first to the albedo, normal and depth channels. Reads rays and hits; updates
 // first_hits. One work-item a camera path. Used by every method, once an iteration.
+#include "math/hash.h"
 #include "scene/bsdf.h"
+#include "scene/camera_rays.h"
 #include "shared/film.h"
 #include "shared/path.h"
 
 static inline float3 albedo_of(const Scattering* scattering)
 {
-    const float3 reflectance = unpack(scattering->bsdf.reflectance);
-    switch (scattering->bsdf.type) {
-    case BSDF_DIFFUSE: return is_black_side(scattering) ? (float3)(0.0f) : reflectance;
-    case BSDF_CONDUCTOR: return reflectance * fresnel_conductor(1.0f, unpack(scattering->bsdf.eta_rgb), unpack(scattering->bsdf.k_rgb));
-    default: return (float3)(1.0f);
+    if (is_black_side(scattering)) return (float3)(0.0f);
+    switch (scattering->lobe) {
+    case LOBE_CONDUCTOR:
+    case LOBE_ROUGH_CONDUCTOR: return scattering->reflectance * fresnel_conductor(1.0f, scattering->eta_rgb, scattering->k_rgb);
+    default: return scattering->reflectance;
     }
 }
 
-__kernel void record_first_hits(SURFACE_PARAMETERS, __global const Ray* restrict rays, __global const Hit* restrict hits, Vec3 camera_position, uint count,
-                                float inverse_iterations, __global FirstHitPixel* restrict first_hits)
+__kernel void record_first_hits(SURFACE_PARAMETERS, __global const Ray* restrict rays, __global const Hit* restrict hits, Camera camera, uint count,
+                                uint iteration, __global FirstHitPixel* restrict first_hits)
 {
     const uint path = get_global_id(0);
     if (path >= count) return;
@@ -26,12 +28,13 @@ __kernel void record_first_hits(SURFACE_PARAMETERS, __global const Ray* restrict
     if (hit.primitive != NO_PRIMITIVE) {
         const SurfaceView scene = SURFACE_VIEW;
         const Surface surface = surface_at(&scene, rays[path], hit);
-        const Scattering scattering = scattering_at(&scene, &surface);
+        const Scattering scattering = scattering_at(&scene, &surface, unit_float(hash_uint(hash_uint(path) + iteration)));
         albedo = albedo_of(&scattering);
         normal = facing(surface.shading_normal, surface.outgoing);
-        depth = length(surface.position - unpack(camera_position));
+        depth = camera_distance(&camera, surface.position);
     }
     // Running means: x += (sample - x) / n.
+    const float inverse_iterations = 1.0f / ((float)iteration + 1.0f);
     FirstHitPixel pixel = first_hits[path];
     pixel.albedo = pack(unpack(pixel.albedo) + (albedo - unpack(pixel.albedo)) * inverse_iterations);
     pixel.normal = pack(unpack(pixel.normal) + (normal - unpack(pixel.normal)) * inverse_iterations);

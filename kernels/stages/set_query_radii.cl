@@ -7,5 +7,5 @@ __kernel void set_query_radii(__global const ProgressivePixel* restrict pixels, 
 {
     const uint index = get_global_id(0);
     if (index >= count) return;
-    if (queries[index].radius > 0.0f) queries[index].radius = sqrt(pixels[queries[index].pixel].radius_squared);
+    if (queries[index].radius > 0.0f) queries[index].radius = sqrt(pixels[index].radius_squared);
 }

@@ -5,27 +5,6 @@
 #include "scene/continue_path.h"
 #include "scene/direct_light.h"
 
-// Weight of emission that BSDF sampling found, against next-event estimation.
-static inline float emission_weight(const PathState* path, float light_pdf)
-{
-    return path->pdf_w == PDF_DELTA ? 1.0f : balance_heuristic(path->pdf_w, light_pdf);
-}
-
-static inline float3 environment_radiance(const SurfaceView* scene, const PathState* path)
-{
-    const uint light = scene->globals->constant_light;
-    if (light == NO_LIGHT) return (float3)(0.0f);
-    return unpack(scene->lights[light].emission) * emission_weight(path, constant_light_pdf_w(scene));
-}
-
-static inline float3 surface_radiance(const SurfaceView* scene, const Surface* surface, const PathState* path, Ray ray)
-{
-    const uint light = light_of_hit(scene, surface);
-    const float3 emitted = emitted_radiance(scene, surface, light);
-    if (is_black(emitted)) return emitted;
-    return emitted * emission_weight(path, light_pdf_w(scene, surface, light, unpack(ray.origin)));
-}
-
 __kernel void shade_camera_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, uint width, uint height, __global const Hit* restrict hits,
                                 __global const uint* restrict active, __global const uint* restrict active_count, __global Ray* restrict rays,
                                 __global PathState* restrict paths, __global Vec3* restrict radiance, __global Ray* restrict shadow_rays,
@@ -43,19 +22,19 @@ __kernel void shade_camera_path(SURFACE_PARAMETERS, SamplerKey key, PathRules ru
     if (path.depth > rules.max_depth) return;
 
     if (hit.primitive == NO_PRIMITIVE) {
-        radiance[index] = pack(unpack(radiance[index]) + throughput * environment_radiance(&scene, &path));
+        radiance[index] = pack(unpack(radiance[index]) + throughput * found_environment(&scene, &path, true));
         return;
     }
     const Ray ray = rays[index];
     const Surface surface = surface_at(&scene, ray, hit);
-    const float3 emitted = surface_radiance(&scene, &surface, &path, ray);
+    const float3 emitted = found_emission(&scene, &surface, &path, ray, true);
     if (!is_black(emitted)) radiance[index] = pack(unpack(radiance[index]) + throughput * emitted);
     if (path.depth >= rules.max_depth) return;
 
-    const Scattering scattering = scattering_at(&scene, &surface);
     const uint2 pixel = pixel_of_path(index, width, height);
     Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
     const float4 u = next_4d(&sampler);
+    const Scattering scattering = scattering_at(&scene, &surface, u.w);
     if (!is_specular(&scattering) && !is_black_side(&scattering)) {
         Ray shadow_ray;
         shadow_radiance[index] = pack(throughput * sample_direct_light(&scene, &surface, &scattering, u, true, &shadow_ray));

@@ -1,17 +1,18 @@
-// One vertex of a light path: leaves a photon on every surface that is not specular and scatters on. Reads
+// One vertex of a light path: leaves a photon on every surface where a query may want it and scatters on. Reads
 // hits of the active paths; writes the photon (item by item, to be appended to the map), the next ray,
 // and flags. Photons straight from a light are left out where next-event estimation counts them
 // (-D DIRECT_LIGHT=1). One work-item an active path. Used by the photon mapping methods.
 #include "scene/continue_path.h"
 #include "shared/photon.h"
 
-static inline Photon make_photon(const Surface* surface, const PathState* path)
+static inline Photon make_photon(const Surface* surface, const PathState* path, bool unreached)
 {
     Photon photon;
     photon.position = pack(surface->position);
     photon.direction = pack_direction(-surface->outgoing);
     photon.flux = pack(unpack(path->throughput) * irradiance_scale(surface));
-    photon.normal_depth = pack_normal(facing(surface->geometric_normal, surface->outgoing)) | (min(path->depth, 255u) << 24);
+    photon.normal_depth = pack_normal(facing(surface->geometric_normal, surface->outgoing)) |
+                          (unreached ? PHOTON_UNREACHED : 0u) | (min(path->depth, PHOTON_MAX_DEPTH) << PHOTON_DEPTH_SHIFT);
     return photon;
 }
 
@@ -28,15 +29,16 @@ __kernel void shade_photon_path(SURFACE_PARAMETERS, SamplerKey key, PathRules ru
         const SurfaceView scene = SURFACE_VIEW;
         PathState path = paths[index];
         const Surface surface = surface_at(&scene, rays[index], hit);
-        const Scattering scattering = scattering_at(&scene, &surface);
+        Sampler sampler = light_sampler(key, index, path_count, path.depth);
+        const Scattering scattering = scattering_at(&scene, &surface, next_4d(&sampler).x);
         const bool counted_elsewhere = DIRECT_LIGHT && path.depth == 1u;
-        if (!is_specular(&scattering) && !is_black_side(&scattering) && !counted_elsewhere) {
-            deposits[item] = make_photon(&surface, &path);
+        const bool unreached = (path.flags & PATH_FROM_DELTA_LIGHT) && path.scattered == 0u;
+        if (wants_photons(&scene, &surface, !unreached) && !counted_elsewhere) {
+            deposits[item] = make_photon(&surface, &path, unreached);
             flag |= PATH_DEPOSIT;
         }
         // The camera's side of the path has at least one edge: this one's next photon would have one more.
         if (rules.max_depth == UNBOUNDED_DEPTH || path.depth + 2u <= rules.max_depth) {
-            Sampler sampler = light_sampler(key, index, path_count, path.depth);
             Ray next;
             if (continue_light_path(&surface, &scattering, rules, &sampler, &path, &next)) {
                 rays[index] = next;

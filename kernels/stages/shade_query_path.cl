@@ -1,28 +1,51 @@
 // One vertex of a camera path that looks for photons. Through specular surfaces the path goes on; at the
-// first other one it leaves a query and, with next-event estimation (-D DIRECT_LIGHT=1), a shadow ray.
-// Emission met on the way is added to radiance: nothing else finds it. One work-item an active path. Used by
-// pppm and sppm.
+// first other one it leaves a query and, with next-event estimation (-D DIRECT_LIGHT=1), a shadow ray. Through
+// narrow lobes it goes on as well, since hardly a photon arrives from where they look; what a path that goes on can
+// never find, light from points and directions by way of specular surfaces, it asks for there with probability
+// `narrow_query_share`. Emission met on the way is added to radiance: nothing else finds it. One work-item an
+// active path. Used by pppm and sppm.
 #include "scene/camera_rays.h"
 #include "scene/continue_path.h"
 #include "scene/direct_light.h"
 #include "shared/photon.h"
 
-static inline GatherQuery make_query(const Surface* surface, const Scattering* scattering, const PathState* path, PathRules rules, uint pixel, float radius)
+// With which probability a narrow lobe's path took the way it takes; 1 where it has no choice.
+typedef struct Continuation {
+    bool asks;
+    float probability;
+} Continuation;
+
+static inline Continuation choose_continuation(const Scattering* scattering, float narrow_query_share, Sampler* sampler)
+{
+    Continuation continuation = {!is_specular(scattering), 1.0f};
+    if (!is_narrow(scattering)) return continuation;
+    continuation.asks = next_4d(sampler).x < narrow_query_share;
+    continuation.probability = continuation.asks ? narrow_query_share : 1.0f - narrow_query_share;
+    return continuation;
+}
+
+static inline GatherQuery make_query(const Surface* surface, const Scattering* scattering, float3 throughput, uint max_photon_depth, float radius)
 {
     GatherQuery query;
     query.position = pack(surface->position);
     query.radius = radius;
-    query.throughput = pack(unpack(path->throughput) * unpack(scattering->bsdf.reflectance) * INV_PI_F);
-    query.max_photon_depth = rules.max_depth == UNBOUNDED_DEPTH ? UNBOUNDED_DEPTH : rules.max_depth - path->depth;
+    query.flags = 0u;
+    if (scattering->lobe == LOBE_DIFFUSE) throughput *= evaluate_diffuse(scattering);
+    else query.flags |= QUERY_EVALUATES_LOBE;
+    if (is_transmissive(scattering)) query.flags |= QUERY_BOTH_SIDES;
+    if (is_narrow(scattering)) query.flags |= QUERY_UNREACHED_ONLY;
+    query.throughput = pack(throughput);
+    query.max_photon_depth = max_photon_depth;
     query.normal = pack(facing(surface->geometric_normal, surface->outgoing));
-    query.pixel = pixel;
     return query;
 }
 
-__kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, uint width, uint height, float radius, __global const Hit* restrict hits,
+__kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, uint width, uint height, float radius,
+                               float narrow_query_share, __global const Hit* restrict hits,
                                __global const uint* restrict active, __global const uint* restrict active_count, __global Ray* restrict rays,
                                __global PathState* restrict paths, __global Vec3* restrict radiance, __global Ray* restrict shadow_rays,
-                               __global Vec3* restrict shadow_radiance, __global GatherQuery* restrict queries, __global uint* restrict flags)
+                               __global Vec3* restrict shadow_radiance, __global GatherQuery* restrict queries, __global LobeRecord* restrict query_lobes,
+                               __global uint* restrict flags)
 {
     const uint item = get_global_id(0);
     if (item >= *active_count) return;
@@ -36,30 +59,38 @@ __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rul
     queries[index].radius = 0.0f;
     if (path.depth > rules.max_depth) return;
 
+    const bool mis = DIRECT_LIGHT && LOBES_MAY_BE_NARROW;
     if (hit.primitive == NO_PRIMITIVE) {
-        const uint light = scene.globals->constant_light;
-        if (light != NO_LIGHT) radiance[index] = pack(unpack(radiance[index]) + throughput * unpack(scene.lights[light].emission));
+        radiance[index] = pack(unpack(radiance[index]) + throughput * found_environment(&scene, &path, mis));
         return;
     }
-    const Surface surface = surface_at(&scene, rays[index], hit);
-    const float3 emitted = emitted_radiance(&scene, &surface, light_of_hit(&scene, &surface));
+    const Ray ray = rays[index];
+    const Surface surface = surface_at(&scene, ray, hit);
+    const float3 emitted = found_emission(&scene, &surface, &path, ray, mis);
     if (!is_black(emitted)) radiance[index] = pack(unpack(radiance[index]) + throughput * emitted);
     if (path.depth >= rules.max_depth) return;
 
-    const Scattering scattering = scattering_at(&scene, &surface);
-    if (is_black_side(&scattering)) return;
     const uint2 pixel = pixel_of_path(index, width, height);
     Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
     const float4 u = next_4d(&sampler);
-    if (!is_specular(&scattering)) {
-        queries[index] = make_query(&surface, &scattering, &path, rules, index, radius);
+    const Scattering scattering = scattering_at(&scene, &surface, u.w);
+    if (is_black_side(&scattering)) return;
 #if DIRECT_LIGHT
+    if (!is_specular(&scattering)) {
         Ray shadow_ray;
-        shadow_radiance[index] = pack(throughput * sample_direct_light(&scene, &surface, &scattering, u, false, &shadow_ray));
+        shadow_radiance[index] = pack(throughput * sample_direct_light(&scene, &surface, &scattering, u, is_narrow(&scattering), &shadow_ray));
         shadow_rays[index] = shadow_ray;
+    }
 #endif
+    const Continuation continuation = choose_continuation(&scattering, narrow_query_share, &sampler);
+    if (continuation.asks) {
+        const uint max_photon_depth = rules.max_depth == UNBOUNDED_DEPTH ? UNBOUNDED_DEPTH : rules.max_depth - path.depth;
+        const GatherQuery query = make_query(&surface, &scattering, throughput / continuation.probability, max_photon_depth, radius);
+        if (query.flags & QUERY_EVALUATES_LOBE) query_lobes[index] = pack_lobe(&scattering, &surface);
+        queries[index] = query;
         return;
     }
+    path.throughput = pack(throughput / continuation.probability);
     Ray next;
     if (!continue_camera_path(&surface, &scattering, rules, &sampler, &path, &next)) return;
     rays[index] = next;

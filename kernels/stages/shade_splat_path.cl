@@ -22,7 +22,7 @@ static inline Splat connect_vertex(const Camera* camera, __global const PixelFil
     const float3 to_lens = connection.lens - surface->position;
     const float distance_squared = dot(to_lens, to_lens);
     const float3 direction = to_lens * rsqrt(distance_squared);
-    const float3 f = bsdf_evaluate(scattering, surface, direction) * irradiance_scale(surface);
+    const float3 f = bsdf_evaluate(scattering, surface, direction, CARRIES_FLUX) * irradiance_scale(surface);
     const float geometry = fabs(dot(direction, surface->geometric_normal)) / distance_squared;
     splat.radiance = pack(unpack(path->throughput) * f * (geometry * connection.importance * weight_x * weight_y));
     splat.pixel = path_of_pixel((uint2)((uint)x, (uint)y), camera->crop_width, camera->crop_height);
@@ -53,9 +53,9 @@ __kernel void shade_splat_path(SURFACE_PARAMETERS, Camera camera, __global const
     PathState path = paths[index];
     if (path.depth >= rules.max_depth) return;
     const Surface surface = surface_at(&scene, rays[index], hit);
-    const Scattering scattering = scattering_at(&scene, &surface);
     Sampler sampler = light_sampler(key, index, path_count, path.depth);
     const float4 u = next_4d(&sampler);
+    const Scattering scattering = scattering_at(&scene, &surface, next_4d(&sampler).x);
     if (!is_specular(&scattering) && !is_black_side(&scattering)) {
         Ray shadow_ray;
         deposits[item] = connect_vertex(&camera, filter, &surface, &scattering, &path, u, &shadow_ray);

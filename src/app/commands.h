@@ -12,6 +12,7 @@ void add_devices_command(CLI::App& app, ExitStatus& status);
 void add_methods_command(CLI::App& app, ExitStatus& status);
 void add_info_command(CLI::App& app, ExitStatus& status);
 void add_compare_command(CLI::App& app, ExitStatus& status);
+void add_merge_command(CLI::App& app, ExitStatus& status);
 void add_bench_command(CLI::App& app, ExitStatus& status);
 
 } // namespace sundog

@@ -50,6 +50,7 @@ ExitStatus run(int argc, char** argv)
     add_methods_command(app, status);
     add_info_command(app, status);
     add_compare_command(app, status);
+    add_merge_command(app, status);
     add_bench_command(app, status);
     if (argc < 2) throw UsageError("no command given; the commands are " + command_names(app) + "; see sundog --help");
     check_command(app, argc, argv);

@@ -45,6 +45,19 @@ std::uint64_t parse_count(const std::string& option, const std::string& text)
     return value;
 }
 
+std::pair<std::string, std::string> parse_address(const std::string& option, const std::string& text)
+{
+    const auto colon = text.rfind(':');
+    std::string host = text.substr(0, colon);
+    const std::string port = colon == std::string::npos ? "" : text.substr(colon + 1);
+    if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
+    else if (host.find(':') != std::string::npos) host.clear(); // which colon starts the port?
+    std::uint16_t number = 0;
+    if (host.empty() || !parse_whole(std::string_view(port), number) || number == 0)
+        throw UsageError(option + " needs HOST:PORT, such as localhost:14158, got \"" + text + "\"");
+    return {host, std::to_string(number)};
+}
+
 double parse_finite(const std::string& option, const std::string& text)
 {
     double value = 0.0;

@@ -18,6 +18,9 @@ std::pair<int, int> parse_size(const std::string& text);
 // The whole text as a non-negative integer of 64 bits (CLI11 would wrap -5 around).
 std::uint64_t parse_count(const std::string& option, const std::string& text);
 
+// "HOST:PORT", the host a name or an address ("[::1]:14158" for IPv6), the port from 1 to 65535.
+std::pair<std::string, std::string> parse_address(const std::string& option, const std::string& text);
+
 // The whole text as a finite number.
 double parse_finite(const std::string& option, const std::string& text);
 

@@ -10,6 +10,7 @@
 #include "film/image_io.h"
 #include "import/mitsuba_xml.h"
 #include "methods/method.h"
+#include "render/live_preview.h"
 #include "render/session.h"
 
 #include <fmt/format.h>
@@ -36,8 +37,20 @@ struct RenderOptions {
     std::string exposure = "0";
     std::string progress;
     std::string stats;
+    std::string checkpoint;
+    std::optional<std::string> checkpoint_every;
+    bool resume = false;
+    std::string preview;
     bool quiet = false;
     bool verbose = false;
+};
+
+constexpr double default_checkpoint_seconds = 600.0;
+
+struct CheckpointPlan {
+    std::filesystem::path file;
+    double interval = default_checkpoint_seconds; // s
+    bool resume = false;
 };
 
 // What has been checked before anything slow starts.
@@ -49,6 +62,8 @@ struct RenderPlan {
     std::optional<std::uint64_t> iterations;
     std::optional<double> seconds;
     ProgressMode progress = ProgressMode::off;
+    std::optional<CheckpointPlan> checkpoint;
+    std::optional<PreviewAddress> preview;
 };
 
 ProgressMode choose_progress(const RenderOptions& options)
@@ -63,6 +78,19 @@ std::string default_output(const std::string& scene)
 {
     const std::string endings = writable_endings();
     return std::filesystem::path(scene).stem().string() + (endings.starts_with(".exr") ? ".exr" : ".pfm");
+}
+
+std::optional<CheckpointPlan> plan_checkpoint(const RenderOptions& options)
+{
+    if (options.checkpoint.empty()) {
+        if (options.resume) throw UsageError("--resume needs --checkpoint FILE, the file to resume from");
+        if (options.checkpoint_every) throw UsageError("--checkpoint-every needs --checkpoint FILE, the file to save to");
+        return std::nullopt;
+    }
+    CheckpointPlan plan{options.checkpoint, default_checkpoint_seconds, options.resume};
+    if (options.checkpoint_every) plan.interval = parse_finite("--checkpoint-every", *options.checkpoint_every);
+    if (plan.interval <= 0.0) throw UsageError("--checkpoint-every must be more than 0 seconds");
+    return plan;
 }
 
 RenderPlan make_plan(const RenderOptions& options)
@@ -80,11 +108,17 @@ RenderPlan make_plan(const RenderOptions& options)
     if (plan.iterations == 0u) throw UsageError("--iterations must be at least 1");
     if (options.time) plan.seconds = parse_finite("--time", *options.time);
     if (plan.seconds && *plan.seconds <= 0.0) throw UsageError("--time must be more than 0 seconds");
+    plan.checkpoint = plan_checkpoint(options);
+    if (!options.preview.empty()) {
+        const auto [host, port] = parse_address("--preview", options.preview);
+        plan.preview = PreviewAddress{host, port};
+    }
 
     for (const std::string& output : options.outputs) plan.outputs.emplace_back(output);
     if (plan.outputs.empty()) plan.outputs.emplace_back(default_output(options.scene));
     for (const auto& output : plan.outputs) check_writable(output);
     if (!options.stats.empty()) check_file_writable(options.stats);
+    if (plan.checkpoint) check_file_writable(plan.checkpoint->file);
     return plan;
 }
 
@@ -97,41 +131,84 @@ LoadedScene load(const RenderOptions& options, const RenderPlan& plan)
     return loaded;
 }
 
-// Iterates until the goal or Ctrl-C. Returns false when interrupted.
-bool iterate(RenderSession& session, const RenderPlan& plan)
+// Continues from the checkpoint, if that is asked for and there is one.
+void resume(RenderSession& session, const CheckpointPlan& checkpoint, std::optional<std::uint64_t> goal)
 {
-    ProgressGoal goal{plan.iterations, plan.seconds};
+    const std::string name = checkpoint.file.string();
+    const bool exists = std::filesystem::exists(checkpoint.file);
+    if (!checkpoint.resume) {
+        if (exists) log_warning(name + " will be replaced: without --resume the render starts afresh");
+    } else if (!exists) {
+        log_info("there is no " + name + " yet; starting afresh");
+    } else {
+        session.resume(checkpoint.file);
+        log_info(fmt::format("resumed from {} after {} iterations", name, session.iterations_done()));
+        if (goal && session.iterations_done() > *goal)
+            log_warning(fmt::format("{} already holds {} iterations, more than the {} asked for", name, session.iterations_done(), *goal));
+    }
+}
+
+// Saves a checkpoint whenever it is time to. One that cannot be saved is not the end of the render.
+class CheckpointSchedule {
+public:
+    explicit CheckpointSchedule(const std::optional<CheckpointPlan>& plan) : plan_(plan) {}
+    void update(const RenderSession& session)
+    {
+        if (!plan_ || since_last_.seconds() < plan_->interval) return;
+        try {
+            session.save_checkpoint(plan_->file);
+        } catch (const FileError& error) {
+            log_warning(fmt::format("no checkpoint now: {}", error.what()));
+        }
+        since_last_ = Timer();
+    }
+
+private:
+    const std::optional<CheckpointPlan>& plan_;
+    Timer since_last_;
+};
+
+// Iterates until the goal or Ctrl-C. Returns false when interrupted.
+bool iterate(RenderSession& session, const RenderPlan& plan, std::optional<LivePreview>& preview)
+{
+    ProgressGoal goal{plan.iterations, plan.seconds, session.iterations_done()};
     if (!goal.iterations && !goal.seconds) goal.iterations = session.requested_iterations();
     Progress progress(plan.progress, goal, std::cerr, terminal_columns());
     set_before_log_line([&progress] { progress.clear(); });
     defer_interrupts();
 
     const Timer timer;
-    progress.update(0, 0.0);
-    bool finished = false;
-    do {
+    CheckpointSchedule checkpoints(plan.checkpoint);
+    progress.update(session.iterations_done(), 0.0);
+    const auto finished = [&] {
+        return (goal.iterations && session.iterations_done() >= *goal.iterations) || (goal.seconds && timer.seconds() >= *goal.seconds);
+    };
+    // At least one, so that there is an image.
+    while (session.iterations_done() == 0 || (!finished() && !interrupt_requested())) {
         session.iterate();
         progress.update(session.iterations_done(), timer.seconds());
-        finished = (goal.iterations && session.iterations_done() >= *goal.iterations) || (goal.seconds && timer.seconds() >= *goal.seconds);
-    } while (!finished && !interrupt_requested());
+        checkpoints.update(session);
+        if (preview) preview->update(session);
+    }
     progress.finish(session.iterations_done(), timer.seconds());
     set_before_log_line({});
-    return finished;
+    return finished();
 }
 
-// Writes all that can be written, then reports the first failure: hours of rendering must not be lost to
-// one full disk.
-void write_outputs(const Image& image, const RenderPlan& plan)
+// Saves all that can be saved, then reports the first failure: hours of rendering must not be lost to one full disk.
+void save_all(const RenderSession& session, const Image& image, const RenderPlan& plan)
 {
     std::optional<FileError> failure;
-    for (const auto& output : plan.outputs) {
+    const auto attempt = [&](auto save) {
         try {
-            write_image(output, image, plan.exposure_stops);
+            save();
         } catch (const FileError& error) {
             if (failure) log_error(error.what());
             else failure = error;
         }
-    }
+    };
+    for (const auto& output : plan.outputs) attempt([&] { write_image(output, image, plan.exposure_stops); });
+    if (plan.checkpoint) attempt([&] { session.save_checkpoint(plan.checkpoint->file); });
     if (failure) throw *failure;
 }
 
@@ -161,9 +238,14 @@ ExitStatus render(const RenderOptions& options)
     Device device(select_device(options.device));
     log_debug("device: " + device.info().name);
     RenderSession session(std::move(loaded.scene), device, plan.settings);
-    const bool finished = iterate(session, plan);
+    if (plan.checkpoint) resume(session, *plan.checkpoint, plan.iterations);
+    std::optional<LivePreview> preview;
+    if (plan.preview) preview.emplace(*plan.preview, plan.outputs.front().filename().string());
+    const bool finished = iterate(session, plan, preview);
 
-    write_outputs(session.image(), plan);
+    const Image image = session.image();
+    save_all(session, image, plan);
+    if (preview) preview->finish(image);
     const RenderStatistics statistics = session.statistics();
     log_statistics(statistics);
     if (!options.stats.empty()) write_file_atomically(options.stats, statistics_json(statistics, wall.seconds()).dump(2) + "\n");
@@ -186,16 +268,24 @@ void add_render_command(CLI::App& app, ExitStatus& status)
     command->add_option("-m,--method", options->method, "Method, instead of the scene's <integrator>; sundog methods lists them")->type_name("NAME");
     repeatable("-p,--param", options->parameters, "KEY=VALUE", "Method parameter");
     repeatable("-D", options->defines, "NAME=VALUE", "Scene parameter, $NAME in the file");
-    command->add_option("-n,--iterations", options->iterations, "Stop after so many iterations")->type_name("N");
-    command->add_option("-t,--time", options->time, "Stop when so many seconds of rendering are over; with -n, whichever comes first")->type_name("SECONDS");
+    command->add_option("-n,--iterations", options->iterations, "Stop after so many iterations, those of a resumed checkpoint included")->type_name("N");
+    command->add_option("-t,--time", options->time, "Stop after so many seconds of rendering in this run; with -n, whichever comes first")->type_name("SECONDS");
     command->add_option("-s,--seed", options->seed, "Seed of the random numbers, instead of the scene's")->type_name("N");
     command->add_option("--size", options->size, "Film size in pixels, instead of the scene's")->type_name("WxH");
     command->add_option("-d,--device", options->device, "OpenCL device: index, part of the name, cpu, gpu or all")->type_name("SELECTOR");
     command->add_option("--exposure", options->exposure, "Scale PNG by 2^STOPS")->type_name("STOPS");
     command->add_option("--progress", options->progress, "auto (a bar on a terminal, plain lines elsewhere), bar, plain, json or off")->type_name("MODE");
     command->add_option("--stats", options->stats, "Write counts and times as JSON")->type_name("FILE");
+    command->add_option("--checkpoint", options->checkpoint, "Save all state to this file now and then, at the end, and at Ctrl-C")->type_name("FILE");
+    command->add_option("--checkpoint-every", options->checkpoint_every, fmt::format("Seconds between checkpoints, default {:g}", default_checkpoint_seconds))
+        ->type_name("SECONDS");
+    command->add_flag("--resume", options->resume, "Go on from the checkpoint, or start afresh when there is none yet");
+    command->add_option("--preview", options->preview, "Show the image in a tev viewer while it renders; tev's own port is 14158")->type_name("HOST:PORT");
     command->add_flag("-q,--quiet", options->quiet, "Print warnings and errors only");
     command->add_flag("-v,--verbose", options->verbose, "Print what happens, and the time of each stage");
+    command->footer("A resumed render is the uninterrupted one, bit for bit, on the same device: the same command can be given again until it\n"
+                    "ends with status 0 (an interrupted one ends with 130). A checkpoint of another scene, method, parameter, seed or size, and\n"
+                    "one that is damaged, is refused with status 5. Only the goal may change: -n, -t and the parameter iterations.");
     command->callback([options, &status] { status = render(*options); });
 }
 

@@ -14,9 +14,12 @@ namespace {
 const char* kind(const TriangleMesh&) { return "mesh"; }
 const char* kind(const Sphere&) { return "sphere"; }
 const char* kind(const Disk&) { return "disk"; }
+const char* kind(const Cylinder&) { return "cylinder"; }
 const char* kind(const DiffuseBsdf&) { return "diffuse"; }
-const char* kind(const DielectricBsdf& bsdf) { return bsdf.thin ? "thindielectric" : "dielectric"; }
-const char* kind(const ConductorBsdf&) { return "conductor"; }
+const char* kind(const DielectricBsdf& bsdf) { return bsdf.thin ? "thindielectric" : bsdf.roughness ? "roughdielectric" : "dielectric"; }
+const char* kind(const ConductorBsdf& bsdf) { return bsdf.roughness ? "roughconductor" : "conductor"; }
+const char* kind(const MaskBsdf&) { return "mask"; }
+const char* kind(const BlendBsdf&) { return "blendbsdf"; }
 const char* kind(const NullBsdf&) { return "null"; }
 const char* kind(const TwoSidedBsdf&) { return "twosided"; }
 const char* kind(const PointEmitter&) { return "point"; }
@@ -45,7 +48,8 @@ template <class T> std::uint64_t bytes_of(const std::vector<T>& array) { return 
 std::uint64_t device_bytes(const FlatScene& flat, const Bvh& bvh)
 {
     return bytes_of(flat.positions) + bytes_of(flat.normals) + bytes_of(flat.triangles) + bytes_of(flat.analytics) + bytes_of(flat.shapes) + bytes_of(flat.bsdfs) +
-           bytes_of(flat.lights) + bytes_of(flat.light_alias) + sizeof(SceneGlobals) + bytes_of(bvh.nodes) + bytes_of(bvh.blocks);
+           bytes_of(flat.lights) + bytes_of(flat.light_alias) + bytes_of(flat.uvs) + bytes_of(flat.textures) + bytes_of(flat.texels) +
+           bytes_of(flat.attribute_ranges) + bytes_of(flat.attribute_values) + sizeof(SceneGlobals) + bytes_of(bvh.nodes) + bytes_of(bvh.blocks);
 }
 
 // The same checks as before a render.

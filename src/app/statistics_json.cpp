@@ -31,6 +31,7 @@ nlohmann::ordered_json statistics_json(const RenderStatistics& statistics, doubl
     json["seed"] = statistics.seed;
     json["device"] = statistics.device;
     json["iterations"] = statistics.iterations;
+    json["resumed_iterations"] = statistics.resumed_iterations;
     json["light_subpaths"] = statistics.counters.light_subpaths;
     json["camera_subpaths"] = statistics.counters.camera_subpaths;
     json["photons_stored"] = statistics.counters.photons_stored;

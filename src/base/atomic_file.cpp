@@ -44,68 +44,54 @@ void check_place(const fs::path& path)
     if (fs::exists(path, error) && ::access(path.c_str(), W_OK) != 0) fail(path, "cannot be replaced", errno);
 }
 
-// An open file beside the final one; removed again unless renamed to it.
-class TemporaryFile {
-public:
-    explicit TemporaryFile(const fs::path& final_path) : final_(final_path)
-    {
-        static std::atomic<unsigned> counter{0};
-        path_ = final_.parent_path() / fmt::format(".{}.{}.{}.tmp", final_.filename().string(), ::getpid(), counter.fetch_add(1));
-        descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor_ < 0) fail(final_, "cannot write", errno);
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile()
-    {
-        if (descriptor_ >= 0) ::close(descriptor_);
-        if (!renamed_) ::unlink(path_.c_str());
-    }
-
-    void write(std::string_view bytes)
-    {
-        while (!bytes.empty()) {
-            const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written < 0) fail(final_, "cannot write", errno);
-            bytes.remove_prefix(static_cast<std::size_t>(written));
-        }
-    }
-
-    // Data reaches the disk before the name does: a crash cannot leave an empty file under it.
-    void rename_to_final()
-    {
-        if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail(final_, "cannot write", errno);
-        const int closed = ::close(descriptor_);
-        descriptor_ = -1;
-        if (closed != 0 && errno != EINTR) fail(final_, "cannot write", errno);
-        if (::rename(path_.c_str(), final_.c_str()) != 0) fail(final_, "cannot rename to it", errno);
-        renamed_ = true;
-    }
-
-private:
-    fs::path final_;
-    fs::path path_;
-    int descriptor_ = -1;
-    bool renamed_ = false;
-};
-
 } // namespace
+
+AtomicFile::AtomicFile(const fs::path& path) : final_(resolve_link(path))
+{
+    check_place(final_);
+    static std::atomic<unsigned> counter{0};
+    temporary_ = final_.parent_path() / fmt::format(".{}.{}.{}.tmp", final_.filename().string(), ::getpid(), counter.fetch_add(1));
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail(final_, "cannot write", errno);
+}
+
+AtomicFile::~AtomicFile()
+{
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!committed_) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::string_view bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail(final_, "cannot write", errno);
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+// Data reaches the disk before the name does: a crash cannot leave an empty file under it.
+void AtomicFile::commit()
+{
+    if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail(final_, "cannot write", errno);
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    if (closed != 0 && errno != EINTR) fail(final_, "cannot write", errno);
+    if (::rename(temporary_.c_str(), final_.c_str()) != 0) fail(final_, "cannot rename to it", errno);
+    committed_ = true;
+}
 
 void write_file_atomically(const fs::path& path, std::string_view bytes)
 {
-    const fs::path target = resolve_link(path);
-    check_place(target);
-    TemporaryFile file(target);
+    AtomicFile file(path);
     file.write(bytes);
-    file.rename_to_final();
+    file.commit();
 }
 
 void check_file_writable(const fs::path& path)
 {
-    const fs::path target = resolve_link(path);
-    check_place(target);
-    TemporaryFile probe(target);
+    const AtomicFile probe(path);
 }
 
 } // namespace sundog

@@ -57,15 +57,16 @@ Progress::Progress(ProgressMode mode, ProgressGoal goal, std::ostream& out, int 
 Progress::State Progress::evaluate(std::uint64_t iterations, double seconds) const
 {
     State state{iterations, seconds, 0.0, std::nullopt, std::nullopt};
-    if (iterations > 0 && seconds > 0.0) state.rate = static_cast<double>(iterations) / seconds;
+    if (iterations > goal_.resumed_iterations && seconds > 0.0) state.rate = static_cast<double>(iterations - goal_.resumed_iterations) / seconds;
     auto consider = [&](double fraction, double left) {
         state.fraction = std::clamp(std::max(state.fraction, fraction), 0.0, 1.0);
         state.seconds_left = std::max(0.0, std::min(left, state.seconds_left.value_or(left)));
     };
     if (goal_.seconds) consider(seconds / *goal_.seconds, *goal_.seconds - seconds);
-    if (goal_.iterations && state.rate) {
+    if (goal_.iterations) {
         const double done = static_cast<double>(iterations), total = static_cast<double>(*goal_.iterations);
-        consider(done / total, (total - done) / *state.rate);
+        if (state.rate) consider(done / total, (total - done) / *state.rate);
+        else state.fraction = std::clamp(std::max(state.fraction, done / total), 0.0, 1.0);
     }
     return state;
 }

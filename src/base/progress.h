@@ -17,6 +17,7 @@ std::optional<ProgressMode> parse_progress_mode(const std::string& name);
 struct ProgressGoal {
     std::optional<std::uint64_t> iterations;
     std::optional<double> seconds;
+    std::uint64_t resumed_iterations = 0; // done before the clock started; the rate is of the others
 };
 
 // Prints to `out`. Times are given by the caller, in seconds since the start.

@@ -1,5 +1,7 @@
 #include "film/device_film.h"
 
+#include "device/buffer_state.h"
+
 #include <algorithm>
 
 namespace sundog {
@@ -44,6 +46,14 @@ void DeviceFilm::accumulate(const Buffer<Vec3>& radiance)
 std::uint64_t DeviceFilm::invalid_samples() const
 {
     return invalid_samples_.read(0);
+}
+
+void DeviceFilm::serialize(StateArchive& archive)
+{
+    archive.value("film iterations", iterations_);
+    sundog::serialize(archive, "film", pixels_);
+    sundog::serialize(archive, "first hit channels", first_hits);
+    sundog::serialize(archive, "invalid samples", invalid_samples_);
 }
 
 std::size_t DeviceFilm::pixel_of_path(std::size_t path) const

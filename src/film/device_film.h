@@ -1,6 +1,7 @@
 // The film on the device: what iterations add up to.
 #pragma once
 
+#include "base/state_archive.h"
 #include "device/kernel.h"
 #include "film/image.h"
 #include "shared/film.h"
@@ -27,6 +28,9 @@ public:
 
     // Means of radiance, variance.{R,G,B} (of one iteration's radiance, unbiased), albedo, N and depth.
     Image resolve() const;
+
+    // All that iterations have added up.
+    void serialize(StateArchive& archive);
 
     // Row-major index of the pixel with this place in path order.
     std::size_t pixel_of_path(std::size_t path) const;

@@ -1,10 +1,10 @@
 // BSDFs of a scene file.
 #pragma once
 
-#include "import/object_reader.h"
-#include "scene/scene.h"
+#include "import/texture_import.h"
 
 #include <map>
+#include <set>
 
 namespace sundog
 {
@@ -13,22 +13,36 @@ namespace sundog
 class BsdfImporter
 {
 public:
-    BsdfImporter(const SceneIndex& index, std::vector<BsdfDescription>& bsdfs) : index_(index), bsdfs_(bsdfs) {}
+    BsdfImporter(const SceneIndex& index, TextureImporter& textures, std::vector<BsdfDescription>& bsdfs) : index_(index), textures_(textures), bsdfs_(bsdfs)
+    {
+    }
 
     // Each returns an index into the list. Throws SceneError for plugins and values that are not supported.
     uint import(const XmlElement& element);
     uint add_diffuse(const std::string& id, const SourceLocation& where, Vec3 reflectance);
 
 private:
-    uint add(const XmlElement& element, decltype(BsdfDescription::model) model);
-    decltype(BsdfDescription::model) read(ObjectReader& reader);
+    using Model = decltype(BsdfDescription::model);
+
+    uint add(const XmlElement& element, Model model);
+    Model read(ObjectReader& reader);
     DielectricBsdf read_dielectric(ObjectReader& reader, bool thin);
     ConductorBsdf read_conductor(ObjectReader& reader);
+    void read_conductor_index(ObjectReader& reader, ConductorBsdf& bsdf);
+    Roughness read_roughness(ObjectReader& reader);
     TwoSidedBsdf read_two_sided(ObjectReader& reader);
+    MaskBsdf read_mask(ObjectReader& reader);
+    BlendBsdf read_blend(ObjectReader& reader);
+    ColorSource reflectance(ObjectReader& reader, std::string_view name, Vec3 fallback) { return textures_.color(reader, name, fallback, ColorRole::reflectance); }
+    // Several BSDFs inside; throws SceneError unless there are between least and most.
+    std::vector<uint> nested(ObjectReader& reader, std::size_t least, std::size_t most);
+    uint nesting(uint bsdf) const; // levels of masks and blends in it
 
     const SceneIndex& index_;
+    TextureImporter& textures_;
     std::vector<BsdfDescription>& bsdfs_;
     std::map<const XmlElement*, uint> imported_;
+    std::set<const XmlElement*> being_read_;
 };
 
 } // namespace sundog

@@ -59,17 +59,36 @@ void check_crop(ObjectReader& reader, const char* offset_name, const char* size_
                                                 ", outside of the film's " + std::to_string(film) + " pixels");
 }
 
+// Films differ in the file that they write, which the command line chooses here, and mfilm in its default size.
+void read_type(ObjectReader& reader, Film& film)
+{
+    const std::string type = reader.type();
+    const auto taken_as_hdrfilm = [&](const std::string& reason) {
+        reader.index().warn(reader.where(), "film '" + type + "' is taken as hdrfilm: " + reason);
+    };
+    if (type == "ldrfilm") {
+        taken_as_hdrfilm("exposure is chosen when the image is written");
+    } else if (type == "tiledhdrfilm") {
+        taken_as_hdrfilm("the whole image is kept in memory");
+    } else if (type == "mfilm") {
+        taken_as_hdrfilm("the format of the file is chosen by the name of the output");
+        film.width = film.height = 1;
+    } else if (type == "specfilm") {
+        throw SceneError(
+            reader.where(),
+            "film plugin 'specfilm' is not supported: light has red, green and blue here, not bands of wavelengths; use hdrfilm");
+    } else if (type != "hdrfilm") {
+        reader.unsupported("hdrfilm, ldrfilm, tiledhdrfilm, mfilm");
+    }
+}
+
 } // namespace
 
 Film import_film(ObjectReader& reader)
 {
-    const std::string type = reader.type();
-    if (type == "ldrfilm")
-        reader.index().warn(reader.where(), "film 'ldrfilm' is taken as hdrfilm: exposure is chosen when the image is written");
-    else if (type != "hdrfilm")
-        reader.unsupported("hdrfilm");
     Film film;
     film.where = reader.where();
+    read_type(reader, film);
     film.width = read_side(reader, "width", film.width);
     film.height = read_side(reader, "height", film.height);
     if (static_cast<long long>(film.width) * film.height > max_pixels)
@@ -91,7 +110,7 @@ Film import_film(ObjectReader& reader)
         reader.index().warn(reader.where_of("sample_border"),
                             "sample_border is taken as true: pixels at the border get samples from both of its sides");
     for (const char* name : {"file_format", "pixel_format", "component_format", "banner", "attach_log", "high_quality_edges", "compensate",
-                             "label_font", "gamma", "exposure", "tonemap_method", "key", "burn"})
+                             "label_font", "gamma", "exposure", "tonemap_method", "key", "burn", "digits", "variable"})
         reader.ignore(name, "how the image is written is chosen on the command line");
     reader.finish();
     return film;

@@ -1,4 +1,4 @@
-// What every mesh goes through after it is read: transformed, checked, freed of degenerate triangles, given normals.
+// What every mesh goes through after it is read: transformed, checked, freed of degenerate triangles.
 #pragma once
 
 #include "base/errors.h"
@@ -12,17 +12,15 @@ namespace sundog
 // reflection, unless `flip` turns the surface inside out.
 void transform_mesh(TriangleMesh& mesh, const Transform& to_world, bool flip);
 
-// Throws SceneError naming the first vertex with an infinite or NaN coordinate. Vertices count from 1, as in OBJ.
+// Throws SceneError naming the first vertex with an infinite or NaN coordinate, of position, normal or texture. Vertices
+// count from 1, as in OBJ.
 void require_finite_vertices(const TriangleMesh& mesh, const SourceLocation& where, const std::string& file);
 
 // Throws SceneError naming the first triangle with a vertex index out of range.
 void require_valid_indices(const TriangleMesh& mesh, const SourceLocation& where, const std::string& file);
 
-// Removes triangles without area, keeping `of_triangle` (empty, or one entry a triangle) in step; returns how many.
+// Removes triangles without area, keeping face attributes and `of_triangle` (empty, or one entry a triangle) in step;
+// returns how many.
 std::size_t drop_degenerate_triangles(TriangleMesh& mesh, std::vector<int>& of_triangle);
-
-// Fills in normals that are missing or of no length: the normals of the triangles around a vertex, weighted by their
-// angle there [Thuermer and Wuethrich 1998]. Makes all unit length.
-void complete_normals(TriangleMesh& mesh);
 
 } // namespace sundog

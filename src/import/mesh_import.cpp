@@ -1,7 +1,11 @@
 #include "import/mesh_import.h"
 
 #include "import/mesh_cleanup.h"
+#include "import/mesh_normals.h"
 #include "import/ply.h"
+#include "import/serialized.h"
+
+#include <numbers>
 
 namespace sundog
 {
@@ -24,18 +28,28 @@ void finish_mesh(ObjectReader& reader, TriangleMesh& mesh, std::vector<int>& of_
     if (mesh.triangles.empty()) throw SceneError(reader.where(), file + " has no triangles" + (dropped > 0 ? " but degenerate ones" : ""));
 }
 
-void finish_file_mesh(ObjectReader& reader, TriangleMesh& mesh, std::vector<int>& of_triangle, const std::string& file)
+void set_normals(ObjectReader& reader, TriangleMesh& mesh, bool flat_in_file)
 {
-    finish_mesh(reader, mesh, of_triangle, file);
-    // Without normals in the file Mitsuba computes smooth ones.
-    if (reader.boolean("face_normals", false))
+    const bool flat = reader.boolean("face_normals", false);
+    if (reader.has("max_smooth_angle")) {
+        const double degrees = reader.number("max_smooth_angle", 0.0);
+        if (!(degrees >= 0.0 && degrees <= 180.0))
+            throw SceneError(reader.where_of("max_smooth_angle"), "'max_smooth_angle' must be from 0 to 180 degrees");
+        if (flat)
+            throw SceneError(reader.where_of("max_smooth_angle"), "'max_smooth_angle' and 'face_normals' exclude each other: remove one");
+        smooth_up_to(mesh, degrees * std::numbers::pi / 180.0);
+    } else if (flat || flat_in_file) {
         mesh.normals.clear();
-    else
-        complete_normals(mesh);
-    for (const char* name : {"flip_tex_coords", "collapse", "srgb", "load_materials"})
-        reader.ignore(name, "it does not change the geometry");
-    reader.refuse("max_smooth_angle", "compute the normals in a modeller, or set face_normals");
-    reader.refuse("shape_index", "split the file");
+    } else {
+        complete_normals(mesh); // as in Mitsuba, where the file has none
+    }
+}
+
+void finish_file_mesh(ObjectReader& reader, MeshFile& file, std::vector<int>& of_triangle, const std::filesystem::path& path)
+{
+    for (const auto& warning : file.warnings) reader.index().warn({path.string(), 0}, warning);
+    finish_mesh(reader, file.mesh, of_triangle, path.string());
+    set_normals(reader, file.mesh, file.face_normals);
 }
 
 TriangleMesh finish_generated(ObjectReader& reader, TriangleMesh mesh, const std::string& name)
@@ -45,44 +59,98 @@ TriangleMesh finish_generated(ObjectReader& reader, TriangleMesh mesh, const std
     return mesh;
 }
 
+std::filesystem::path find_mesh_file(ObjectReader& reader)
+{
+    const std::string filename = reader.text("filename", "");
+    return reader.index().find_file(filename, reader.where_of("filename"));
+}
+
+// The parameter, where there is one.
+std::optional<int> shape_index(ObjectReader& reader)
+{
+    if (!reader.has("shape_index")) return {};
+    const int index = reader.integer("shape_index", 0);
+    if (index < 0) throw SceneError(reader.where_of("shape_index"), "'shape_index' must be >= 0, got " + std::to_string(index));
+    return index;
+}
+
+PlyColors ply_colors(ObjectReader& reader)
+{
+    if (!reader.index().legacy()) return PlyColors::by_type;
+    return reader.boolean("srgb", true) ? PlyColors::encoded : PlyColors::linear;
+}
+
 } // namespace
 
 ObjFile import_obj(ObjectReader& reader, bool with_materials)
 {
-    const std::string filename = reader.text("filename", "");
-    const auto path = reader.index().find_file(filename, reader.where_of("filename"));
-    ObjFile obj = load_obj(path, reader.where_of("filename"), with_materials);
-    for (const auto& warning : obj.warnings) reader.index().warn({path.string(), 0}, warning);
-    finish_file_mesh(reader, obj.mesh, obj.material_of_triangle, path.string());
+    const auto path = find_mesh_file(reader);
+    ObjOptions options;
+    options.with_materials = with_materials && reader.boolean("load_materials", true);
+    options.flip_tex_coords = reader.boolean("flip_tex_coords", true);
+    options.shape_index = shape_index(reader);
+    ObjFile obj = load_obj(path, reader.where_of("filename"), options);
+    if (options.shape_index && static_cast<std::size_t>(*options.shape_index) >= obj.shapes)
+        throw SceneError(reader.where_of("shape_index"), "shape_index is " + std::to_string(*options.shape_index) + ", but '" +
+                                                             path.string() + "' has " + std::to_string(obj.shapes) +
+                                                             " shapes (counted from 0)");
+    reader.ignore("collapse", "the shapes of an OBJ file are always one");
+    reader.ignore("load_materials", "the shape has a <bsdf>");
+    finish_file_mesh(reader, obj, obj.material_of_triangle, path);
     return obj;
 }
 
 TriangleMesh import_ply(ObjectReader& reader)
 {
-    const std::string filename = reader.text("filename", "");
-    const auto path = reader.index().find_file(filename, reader.where_of("filename"));
-    TriangleMesh mesh = load_ply(path, reader.where_of("filename"));
+    const auto path = find_mesh_file(reader);
+    PlyOptions options;
+    options.flip_tex_coords = reader.boolean("flip_tex_coords", false);
+    options.colors = ply_colors(reader);
+    MeshFile ply = load_ply(path, reader.where_of("filename"), options);
     std::vector<int> none;
-    finish_file_mesh(reader, mesh, none, path.string());
-    return mesh;
+    finish_file_mesh(reader, ply, none, path);
+    return std::move(ply.mesh);
+}
+
+TriangleMesh import_serialized(ObjectReader& reader)
+{
+    const auto path = find_mesh_file(reader);
+    const int index = shape_index(reader).value_or(0);
+    const SourceLocation wanted_at = index > 0 ? reader.where_of("shape_index") : reader.where_of("filename");
+    MeshFile file = load_serialized(path, wanted_at, index);
+    std::vector<int> none;
+    finish_file_mesh(reader, file, none, path);
+    return std::move(file.mesh);
 }
 
 TriangleMesh import_rectangle(ObjectReader& reader)
 {
     TriangleMesh mesh;
     mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
     return finish_generated(reader, std::move(mesh), "the rectangle");
 }
 
 TriangleMesh import_cube(ObjectReader& reader)
 {
+    // Each face spans normal + a * u + b * v for a, b in [-1, 1], with texture coordinates ((a + 1) / 2, (b + 1) / 2):
+    // where Mitsuba has them. u x v points inwards.
+    struct Face {
+        Vec3 normal, u, v;
+    };
+    constexpr Face faces[] = {{{0, -1, 0}, {0, 0, 1}, {1, 0, 0}}, {{0, 1, 0}, {-1, 0, 0}, {0, 0, -1}}, {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
+                              {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}},  {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},  {{0, 0, -1}, {0, -1, 0}, {1, 0, 0}}};
     TriangleMesh mesh;
-    // Vertex i has x, y, z = +1 where bits 0, 1, 2 of i are set.
-    for (int i = 0; i < 8; i++)
-        mesh.positions.push_back({(i & 1) != 0 ? 1.0f : -1.0f, (i & 2) != 0 ? 1.0f : -1.0f, (i & 4) != 0 ? 1.0f : -1.0f});
-    mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
-                      {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+    for (const Face& face : faces) {
+        const auto base = static_cast<uint>(mesh.positions.size());
+        for (const Vec2 uv : {Vec2{0, 0}, Vec2{0, 1}, Vec2{1, 1}, Vec2{1, 0}}) {
+            mesh.positions.push_back(face.normal + (2.0f * uv.x - 1.0f) * face.u + (2.0f * uv.y - 1.0f) * face.v);
+            mesh.uvs.push_back(uv);
+        }
+        mesh.triangles.push_back({base, base + 1, base + 2});
+        mesh.triangles.push_back({base, base + 2, base + 3});
+    }
     return finish_generated(reader, std::move(mesh), "the cube");
 }
 

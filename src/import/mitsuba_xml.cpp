@@ -24,7 +24,8 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
 
     if (const auto integrator = root.single("integrator")) import_integrator(*integrator->object, index, scene.integrator);
 
-    BsdfImporter bsdfs(index, scene.bsdfs);
+    TextureImporter textures(index, scene.textures);
+    BsdfImporter bsdfs(index, textures, scene.bsdfs);
     for (const auto& shape : root.nested("shape")) import_shape(*shape.object, index, bsdfs, scene);
     for (const auto& emitter : root.nested("emitter")) scene.emitters.push_back(import_emitter(*emitter.object, index));
 

@@ -1,7 +1,7 @@
 // Scenes in Mitsuba's XML: the 3.x schema, and 0.6's names (camelCase, <lookAt>, <srgb>, ...) beside it.
 //
 // Supported: sensors perspective and thinlens; hdrfilm with box, tent, gaussian, mitchell and catmullrom filters and
-// crop; shapes obj, ply, rectangle, cube, sphere and disk; BSDFs diffuse, dielectric, thindielectric, conductor,
+// crop; shapes obj, ply, serialized, rectangle, cube, sphere, disk and cylinder; BSDFs diffuse, dielectric, thindielectric, conductor,
 // twosided and null; emitters area, point, spot, directional and constant; rgb, srgb, spectrum and blackbody colours;
 // default, $name, include, path, ref and alias. The integrator is kept as text for the method that it names.
 #pragma once

@@ -1,11 +1,14 @@
 #include "import/obj.h"
 
+#include "import/obj_materials.h"
+#include "import/polygon.h"
 #include "import/text_file.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
-#include <sstream>
-#include <tiny_obj_loader.h>
+#include <unordered_map>
 
 namespace sundog
 {
@@ -13,158 +16,233 @@ namespace sundog
 namespace
 {
 
-// Checks what tinyobjloader would pass over in silence (it reads a malformed number as 0 and drops faces with
-// indices out of range), with the line of the fault.
-class ObjCheck
+// Indices from 0 of a face's corner: position, texture coordinate, normal; -1 for none.
+using Corner = std::array<int, 3>;
+
+struct CornerHash {
+    std::size_t operator()(const Corner& c) const
+    {
+        std::uint64_t h = 0;
+        for (int i : c) h = (h ^ static_cast<std::uint32_t>(i)) * 0x9e3779b97f4a7c15ull;
+        return static_cast<std::size_t>(h ^ (h >> 32));
+    }
+};
+
+class ObjReader
 {
 public:
-    explicit ObjCheck(const std::filesystem::path& file) : where_{file.string(), 0} {}
+    ObjReader(const std::filesystem::path& file, const ObjOptions& options) : file_(file), options_(options), where_{file.string(), 0} {}
 
-    void run(std::string_view text)
+    ObjFile read(std::string_view text)
     {
         while (!text.empty()) {
-            const std::size_t end = std::min(text.find('\n'), text.size());
             where_.line++;
-            check_line(text.substr(0, end));
-            text.remove_prefix(std::min(end + 1, text.size()));
+            read_line(next_line(text));
         }
         if (faces_ == 0) throw SceneError({where_.file, 0}, "the mesh has no faces");
+        result_.shapes = static_cast<std::size_t>(shape_) + (shape_has_faces_ ? 1 : 0);
+        if (!has_uvs_) result_.mesh.uvs.clear();
+        if (!has_normals_) result_.mesh.normals.clear();
+        assign_materials();
+        return std::move(result_);
     }
 
 private:
-    void check_line(std::string_view line)
+    // Takes a line off the text, together with those it continues in.
+    std::string_view next_line(std::string_view& text)
     {
-        std::string_view word = next_word(line);
-        if (word == "v" || word == "vn")
-            check_coordinates(word, line);
+        std::size_t end = std::min(text.find('\n'), text.size());
+        where_.line += continued_lines_;
+        continued_lines_ = 0;
+        while (end < text.size() && continues(text.substr(0, end))) {
+            continued_lines_++;
+            end = std::min(text.find('\n', end + 1), text.size());
+        }
+        const std::string_view line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        return line;
+    }
+
+    static bool continues(std::string_view line)
+    {
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        return line.ends_with('\\');
+    }
+
+    void read_line(std::string_view line)
+    {
+        const std::string_view word = next_word(line);
+        if (word == "v")
+            positions_.push_back(read_triple("vertex", positions_.size(), line));
+        else if (word == "vn")
+            normals_.push_back(read_triple("normal", normals_.size(), line));
         else if (word == "vt")
-            texture_coordinates_++;
+            read_uv(line);
         else if (word == "f")
-            check_face(line);
+            read_face(line);
+        else if (word == "g")
+            begin_shape();
+        else if (word == "usemtl")
+            use_material(rest_of(line));
+        else if (word == "mtllib" && options_.with_materials)
+            append_materials(file_, rest_of(line), result_);
     }
 
     static std::string_view next_word(std::string_view& line)
     {
-        const std::size_t begin = std::min(line.find_first_not_of(" \t\r"), line.size());
-        const std::size_t end = std::min(line.find_first_of(" \t\r", begin), line.size());
+        constexpr std::string_view blanks = " \t\r\n\\";
+        const std::size_t begin = std::min(line.find_first_not_of(blanks), line.size());
+        const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
         const std::string_view word = line.substr(begin, end - begin);
         line.remove_prefix(end);
         return word;
     }
 
-    void check_coordinates(std::string_view kind, std::string_view line)
+    static std::string_view rest_of(std::string_view line)
     {
-        (kind == "v" ? positions_ : normals_)++;
-        for (int i = 0; i < 3; i++) {
-            const std::string_view word = next_word(line);
-            const auto value = parse_number(word);
-            if (value && std::isfinite(static_cast<float>(*value))) continue;
-            const std::string what = kind == "v" ? "vertex " + std::to_string(positions_) : "normal " + std::to_string(normals_);
-            throw SceneError(where_, what + " must have three finite numbers" + (word.empty() ? "" : ", got '" + std::string(word) + "'"));
-        }
+        const std::size_t begin = std::min(line.find_first_not_of(" \t\r"), line.size());
+        return line.substr(begin, line.find_last_not_of(" \t\r") + 1 - begin);
     }
 
-    void check_face(std::string_view line)
+    float read_number(const char* kind, std::size_t index, std::string_view word, const char* wanted) const
+    {
+        const auto value = parse_number(word);
+        if (value && std::isfinite(static_cast<float>(*value))) return static_cast<float>(*value);
+        throw SceneError(where_, std::string(kind) + " " + std::to_string(index + 1) + " must have " + wanted +
+                                     (word.empty() ? "" : ", got '" + std::string(word) + "'"));
+    }
+
+    Vec3 read_triple(const char* kind, std::size_t index, std::string_view line) const
+    {
+        std::array<float, 3> v{};
+        for (float& c : v) c = read_number(kind, index, next_word(line), "three finite numbers");
+        return {v[0], v[1], v[2]};
+    }
+
+    void read_uv(std::string_view line)
+    {
+        constexpr const char* kind = "texture coordinate";
+        const float u = read_number(kind, uvs_.size(), next_word(line), "finite numbers");
+        const std::string_view second = next_word(line);
+        const float v = second.empty() ? 0.0f : read_number(kind, uvs_.size(), second, "finite numbers");
+        uvs_.push_back({u, options_.flip_tex_coords ? 1.0f - v : v});
+    }
+
+    void read_face(std::string_view line)
     {
         faces_++;
-        int corners = 0;
-        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), corners++) {
-            const std::size_t first = std::min(word.find('/'), word.size());
-            const std::size_t second = std::min(word.find('/', first + 1), word.size());
-            check_index(word.substr(0, first), positions_, "vertex");
-            if (first < word.size() && second > first + 1)
-                check_index(word.substr(first + 1, second - first - 1), texture_coordinates_, "texture coordinate");
-            if (second < word.size()) check_index(word.substr(second + 1), normals_, "normal");
-        }
-        if (corners < 3) throw SceneError(where_, "face " + std::to_string(faces_) + " has fewer than three vertices");
+        corners_.clear();
+        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) corners_.push_back(read_corner(word));
+        if (corners_.size() < 3) throw SceneError(where_, "face " + std::to_string(faces_) + " has fewer than three vertices");
+        shape_has_faces_ = true;
+        if (options_.shape_index && *options_.shape_index != shape_) return;
+
+        polygon_.clear();
+        for (const Corner& corner : corners_) polygon_.push_back(vertex_of(corner));
+        if (!append_polygon(result_.mesh.positions, polygon_, result_.mesh.triangles))
+            throw SceneError(where_, "face " + std::to_string(faces_) + " is concave and has more than " +
+                                         std::to_string(max_concave_corners) + " vertices: triangulate it");
+        if (options_.with_materials) result_.material_of_triangle.resize(result_.mesh.triangles.size(), material_);
     }
 
-    void check_index(std::string_view text, long long count, const char* kind)
+    Corner read_corner(std::string_view word) const
     {
+        const std::size_t first = std::min(word.find('/'), word.size());
+        const std::size_t second = std::min(word.find('/', first + 1), word.size());
+        Corner corner{read_index(word.substr(0, first), positions_.size(), "vertex"), -1, -1};
+        if (first < word.size() && second > first + 1)
+            corner[1] = read_index(word.substr(first + 1, second - first - 1), uvs_.size(), "texture coordinate");
+        if (second < word.size()) corner[2] = read_index(word.substr(second + 1), normals_.size(), "normal");
+        return corner;
+    }
+
+    // Counted from 0.
+    int read_index(std::string_view text, std::size_t defined, const char* kind) const
+    {
+        const auto count = static_cast<long long>(defined);
         const auto index = parse_integer(text);
-        const std::string face = "face " + std::to_string(faces_);
-        if (!index) throw SceneError(where_, face + ": '" + std::string(text) + "' is not the index of a " + kind);
+        if (!index)
+            throw SceneError(where_, "face " + std::to_string(faces_) + ": '" + std::string(text) + "' is not the index of a " + kind);
         if (*index == 0 || *index > count || *index < -count)
-            throw SceneError(where_, face + " refers to " + kind + " " + std::string(text) + ", but " + std::to_string(count) +
-                                         " are defined before it (indices start at 1)");
+            throw SceneError(where_, "face " + std::to_string(faces_) + " refers to " + kind + " " + std::string(text) + ", but " +
+                                         std::to_string(count) + " are defined before it (indices start at 1)");
+        return static_cast<int>(*index > 0 ? *index - 1 : count + *index);
     }
 
-    SourceLocation where_;
-    long long positions_ = 0, normals_ = 0, texture_coordinates_ = 0, faces_ = 0;
-};
-
-Vec3 triple(const std::vector<tinyobj::real_t>& values, int index)
-{
-    const auto i = 3 * static_cast<std::size_t>(index);
-    return {values[i], values[i + 1], values[i + 2]};
-}
-
-void append_materials(const std::vector<tinyobj::material_t>& materials, ObjFile& result)
-{
-    for (const auto& material : materials) {
-        result.materials.push_back({material.name, {material.diffuse[0], material.diffuse[1], material.diffuse[2]}});
-        if (!material.diffuse_texname.empty())
-            result.warnings.push_back("material '" + material.name + "': texture '" + material.diffuse_texname +
-                                      "' is not supported, using Kd");
-        const bool emits = material.emission[0] > 0 || material.emission[1] > 0 || material.emission[2] > 0;
-        if (emits || material.dissolve < 1.0f || material.illum >= 3)
-            result.warnings.push_back("material '" + material.name + "': only its diffuse colour is used");
-    }
-}
-
-// One vertex for each distinct triple of indices.
-void append_triangles(const tinyobj::attrib_t& attributes, const std::vector<tinyobj::shape_t>& shapes, ObjFile& result)
-{
-    TriangleMesh& mesh = result.mesh;
-    const bool has_normals = !attributes.normals.empty();
-    std::map<std::array<int, 3>, uint> vertex_of;
-    for (const auto& shape : shapes) {
-        const auto& indices = shape.mesh.indices;
-        for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-            std::array<uint, 3> triangle{};
-            for (std::size_t k = 0; k < 3; k++) {
-                const tinyobj::index_t& index = indices[i + k];
-                const auto [entry, added] =
-                    vertex_of.emplace(std::array<int, 3>{index.vertex_index, index.texcoord_index, index.normal_index},
-                                      static_cast<uint>(mesh.positions.size()));
-                triangle[k] = entry->second;
-                if (!added) continue;
-                mesh.positions.push_back(triple(attributes.vertices, index.vertex_index));
-                if (has_normals)
-                    mesh.normals.push_back(index.normal_index >= 0 ? triple(attributes.normals, index.normal_index) : Vec3{0, 0, 0});
-            }
-            mesh.triangles.push_back(triangle);
-            if (!result.materials.empty()) result.material_of_triangle.push_back(shape.mesh.material_ids[i / 3]);
+    uint vertex_of(const Corner& corner)
+    {
+        TriangleMesh& mesh = result_.mesh;
+        const auto [entry, added] = vertices_.emplace(corner, static_cast<uint>(mesh.positions.size()));
+        if (added) {
+            const auto [position, uv, normal] = corner;
+            mesh.positions.push_back(positions_[static_cast<std::size_t>(position)]);
+            mesh.uvs.push_back(uv >= 0 ? uvs_[static_cast<std::size_t>(uv)] : Vec2{0, 0});
+            mesh.normals.push_back(normal >= 0 ? normals_[static_cast<std::size_t>(normal)] : Vec3{0, 0, 0});
+            has_uvs_ = has_uvs_ || uv >= 0;
+            has_normals_ = has_normals_ || normal >= 0;
         }
+        return entry->second;
     }
-}
+
+    void begin_shape()
+    {
+        if (shape_has_faces_) shape_++;
+        shape_has_faces_ = false;
+    }
+
+    void use_material(std::string_view name)
+    {
+        begin_shape();
+        const auto [entry, added] = used_materials_.emplace(std::string(name), static_cast<int>(used_materials_.size()));
+        material_ = entry->second;
+    }
+
+    // Names become numbers at the end, as a library may be named after its use.
+    void assign_materials()
+    {
+        if (result_.materials.empty()) {
+            result_.material_of_triangle.clear();
+            return;
+        }
+        std::vector<int> number_of(used_materials_.size(), -1);
+        for (const auto& [name, used] : used_materials_) {
+            for (std::size_t i = 0; i < result_.materials.size(); i++)
+                if (result_.materials[i].name == name) number_of[static_cast<std::size_t>(used)] = static_cast<int>(i);
+            if (number_of[static_cast<std::size_t>(used)] < 0)
+                result_.warnings.push_back("material '" + name + "' is in none of the material libraries");
+        }
+        for (int& m : result_.material_of_triangle)
+            if (m >= 0) m = number_of[static_cast<std::size_t>(m)];
+    }
+
+    std::filesystem::path file_;
+    ObjOptions options_;
+    SourceLocation where_;
+    int continued_lines_ = 0; // of the last line
+    std::vector<Vec3> positions_, normals_;
+    std::vector<Vec2> uvs_;
+    std::unordered_map<Corner, uint, CornerHash> vertices_;
+    bool has_uvs_ = false, has_normals_ = false;
+    std::size_t faces_ = 0;
+    int shape_ = 0;
+    bool shape_has_faces_ = false;
+    std::map<std::string, int> used_materials_;
+    int material_ = -1;           // among them
+    std::vector<Corner> corners_; // of the face that is being read
+    std::vector<uint> polygon_;
+    ObjFile result_;
+};
 
 } // namespace
 
-ObjFile load_obj(const std::filesystem::path& file, const SourceLocation& wanted_at, bool with_materials)
+ObjFile parse_obj(const std::filesystem::path& file, std::string_view content, const ObjOptions& options)
 {
-    const std::string text = read_text_file(file, wanted_at);
-    ObjCheck(file).run(text);
+    return ObjReader(file, options).read(content);
+}
 
-    std::istringstream stream(text);
-    tinyobj::attrib_t attributes;
-    std::vector<tinyobj::shape_t> shapes;
-    std::vector<tinyobj::material_t> materials;
-    tinyobj::MaterialFileReader material_reader((file.parent_path() / "").string());
-    std::string warning, error;
-    const bool loaded =
-        tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream, with_materials ? &material_reader : nullptr);
-    if (!loaded) throw SceneError({file.string(), 0}, error.substr(0, error.find('\n')));
-
-    ObjFile result;
-    if (with_materials) {
-        std::istringstream lines(warning);
-        for (std::string line; std::getline(lines, line);)
-            if (!line.empty()) result.warnings.push_back(line);
-        append_materials(materials, result);
-    }
-    append_triangles(attributes, shapes, result);
-    return result;
+ObjFile load_obj(const std::filesystem::path& file, const SourceLocation& wanted_at, const ObjOptions& options)
+{
+    return parse_obj(file, read_text_file(file, wanted_at), options);
 }
 
 } // namespace sundog

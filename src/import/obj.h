@@ -1,10 +1,11 @@
-// Wavefront OBJ meshes, through tinyobjloader.
+// Wavefront OBJ meshes; their material libraries through tinyobjloader.
 #pragma once
 
 #include "base/errors.h"
-#include "scene/scene.h"
+#include "import/mesh_file.h"
 
 #include <filesystem>
+#include <optional>
 
 namespace sundog
 {
@@ -14,17 +15,29 @@ struct ObjMaterial {
     Vec3 diffuse;
 };
 
-struct ObjFile {
-    TriangleMesh mesh; // polygons triangulated; normals empty, or one a position with {0, 0, 0} where the file gives none
-    std::vector<int> material_of_triangle; // index into materials, or -1; empty without materials
-    std::vector<ObjMaterial> materials;
-    std::vector<std::string> warnings; // of the material library, without file and line
+struct ObjOptions {
+    bool with_materials = false;
+    bool flip_tex_coords = true; // v becomes 1 - v: images count their rows from above
+    // Only this one of the file's shapes, counted from 0: as in Mitsuba 0.6, g and usemtl begin a new shape where the
+    // last one has faces.
+    std::optional<int> shape_index;
 };
 
-// Vertices are distinct triples of position, texture coordinate and normal, as in Mitsuba, so that seams stay sharp
-// where normals have to be computed. Materials (diffuse colours) are read on request only.
-// Throws SceneError: at `wanted_at` for an unreadable file, else at the line of the OBJ file for coordinates that are
-// not finite numbers, faces of fewer than three vertices, and indices that are zero, malformed or out of range.
-ObjFile load_obj(const std::filesystem::path& file, const SourceLocation& wanted_at, bool with_materials);
+struct ObjFile : MeshFile {
+    std::vector<int> material_of_triangle; // index into materials, or -1; empty without materials
+    std::vector<ObjMaterial> materials;
+    std::size_t shapes = 0; // in the file
+};
+
+// Polygons are triangulated. Vertices are distinct triples of position, texture coordinate and normal, as in Mitsuba, so
+// that seams stay sharp where normals have to be computed; a corner without a texture coordinate has (0, 0). Materials
+// (diffuse colours) are read on request only. Lines that end in a backslash continue.
+// Throws SceneError: at `wanted_at` for an unreadable file, else at the line of the OBJ file for coordinates that are not
+// finite numbers, faces of fewer than three vertices, concave faces of very many, and indices that are zero, malformed or
+// out of range.
+ObjFile load_obj(const std::filesystem::path& file, const SourceLocation& wanted_at, const ObjOptions& options);
+
+// The same for the content of a file named `file` in messages; material libraries are looked for beside it.
+ObjFile parse_obj(const std::filesystem::path& file, std::string_view content, const ObjOptions& options);
 
 } // namespace sundog

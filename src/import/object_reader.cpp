@@ -159,12 +159,8 @@ Vec3 ObjectReader::color(std::string_view name, Vec3 fallback, ColorRole role)
 {
     const XmlElement* value = find(name);
     if (!value) return fallback;
-    if (value->tag == "texture" || value->tag == "ref") {
-        const XmlElement& object = value->tag == "ref" ? index_.resolve(*value) : *value;
-        const std::string* plugin = object.attribute("type");
-        throw SceneError(value->where, "texture plugin '" + (plugin ? *plugin : "") + "' is not supported: give '" + std::string(name) +
-                                           "' an <rgb> value");
-    }
+    if (value->tag == "texture" || value->tag == "ref")
+        throw SceneError(value->where, "'" + std::string(name) + "' of " + describe() + " cannot be a texture: give it an <rgb> value");
     value = take(name, {"rgb", "srgb", "spectrum", "blackbody", "float", "integer"});
     return read_color(*value, index_, role);
 }
@@ -177,6 +173,17 @@ float ObjectReader::ior(std::string_view name, const char* fallback)
     if (!ior)
         throw SceneError(where_of(name), "unknown material '" + material + "' for '" + std::string(name) + "'; known are " + ior_names());
     return *ior;
+}
+
+std::optional<NestedObject> ObjectReader::object(std::string_view name, std::string_view tag)
+{
+    const XmlElement* value = find(name);
+    if (!value || (value->tag != tag && value->tag != "ref")) return {};
+    const XmlElement& object = value->tag == "ref" ? index_.resolve(*value) : *value;
+    if (object.tag != tag)
+        throw SceneError(value->where, "'" + std::string(name) + "' of " + describe() + " must be a <" + std::string(tag) + ">, not a <" + object.tag + ">");
+    used_.insert(value);
+    return NestedObject{&object, value->where};
 }
 
 std::vector<NestedObject> ObjectReader::nested(std::string_view tag)

@@ -43,6 +43,9 @@ public:
     // The index of refraction in a <float>, or named in a <string>.
     float ior(std::string_view name, const char* fallback);
 
+    // A parameter that is an object of the given tag, in place or by <ref>. Nothing when it is missing or a value.
+    std::optional<NestedObject> object(std::string_view name, std::string_view tag);
+
     // Objects of one tag.
     std::vector<NestedObject> nested(std::string_view tag);
     // At most one; throws SceneError for more.

@@ -1,17 +1,36 @@
-// PLY meshes, ASCII and binary.
+// PLY meshes, ASCII and binary of either byte order.
 #pragma once
 
 #include "base/errors.h"
-#include "scene/scene.h"
+#include "import/mesh_file.h"
 
 #include <filesystem>
 
 namespace sundog
 {
 
-// The triangles of the file (polygons triangulated), its vertices in their order, and its vertex normals if any.
-// Throws SceneError: at `wanted_at` for an unreadable file, at the PLY file for a malformed one (as check_ply
-// has it); in a minimal build, always.
-TriangleMesh load_ply(const std::filesystem::path& file, const SourceLocation& wanted_at);
+// How colours become linear sRGB. Integers are scaled to [0, 1] first in each case.
+enum class PlyColors {
+    by_type, // integers are sRGB-encoded, floats linear: Mitsuba 3
+    encoded, // all are sRGB-encoded: Mitsuba 0.6 unless srgb is false
+    linear,
+};
+
+struct PlyOptions {
+    bool flip_tex_coords = false; // v becomes 1 - v
+    PlyColors colors = PlyColors::by_type;
+};
+
+// The triangles of the file (polygons triangulated) and its vertices in their order: positions x y z; normals nx ny nz;
+// texture coordinates u v, s t or texture_u texture_v; other properties as attributes, named as in ply_attributes.h.
+// Vertices and faces may come in any order, with any properties, scalars or lists. What is not used is named in the
+// warnings. No more memory is taken than a small multiple of the file's size, whatever its header promises.
+// Throws SceneError: at `wanted_at` for an unreadable file, at the PLY file (and the line, within the header and in text
+// files) for a malformed header, missing vertices or faces, data that ends early, values that are not finite numbers,
+// faces of fewer than three vertices, concave ones of very many, and indices out of range.
+MeshFile load_ply(const std::filesystem::path& file, const SourceLocation& wanted_at, const PlyOptions& options);
+
+// The same for the content of a file named `file` in messages.
+MeshFile parse_ply(const std::filesystem::path& file, std::string_view content, const PlyOptions& options);
 
 } // namespace sundog

@@ -3,7 +3,6 @@
 #include "import/text_file.h"
 
 #include <algorithm>
-#include <set>
 
 namespace sundog
 {
@@ -97,32 +96,22 @@ private:
         if (!type || (is_list && !property.count_type)) fail("a property has an unknown type");
         property.type = *type;
         property.name = words.back();
-        if (element.name == "face" && is_list && (property.name == "vertex_indices" || property.name == "vertex_index"))
-            property.role = PlyRole::indices;
-        static const std::set<std::string> coordinates = {"x", "y", "z", "nx", "ny", "nz"};
-        if (element.name == "vertex" && !is_list && coordinates.contains(property.name)) property.role = PlyRole::coordinate;
         element.properties.push_back(property);
-    }
-
-    const PlyElement* find(std::string_view name) const
-    {
-        const auto found = std::find_if(header_.elements.begin(), header_.elements.end(), [&](const auto& e) { return e.name == name; });
-        return found == header_.elements.end() ? nullptr : &*found;
-    }
-
-    static bool has(const PlyElement& element, std::string_view name)
-    {
-        return std::any_of(element.properties.begin(), element.properties.end(), [&](const auto& p) { return p.name == name; });
     }
 
     void require_mesh()
     {
         where_.line = 0;
-        const PlyElement* vertex = find("vertex");
-        const PlyElement* face = find("face");
+        const PlyElement* vertex = header_.find("vertex");
+        const PlyElement* face = header_.find("face");
         if (!has_format_) fail("the header of the PLY file names no format");
-        if (!vertex || !has(*vertex, "x") || !has(*vertex, "y") || !has(*vertex, "z")) fail("the PLY file has no vertices with x, y, z");
-        const bool lists = face && (has(*face, "vertex_indices") || has(*face, "vertex_index"));
+        for (const auto& element : header_.elements) {
+            if (element.properties.empty()) fail("the elements '" + element.name + "' have no properties");
+            if (header_.find(element.name) != &element) fail("the elements '" + element.name + "' are declared twice");
+        }
+        for (const char* name : {"x", "y", "z"})
+            if (!vertex || vertex->scalar(name) == PlyElement::none) fail("the PLY file has no vertices with x, y, z");
+        const bool lists = face && face->find_list({"vertex_indices", "vertex_index"}) != PlyElement::none;
         if (vertex->count == 0 || !lists || face->count == 0) fail("the mesh has no faces");
         header_.vertices = vertex->count;
     }
@@ -135,6 +124,26 @@ private:
 };
 
 } // namespace
+
+std::size_t PlyElement::scalar(std::string_view wanted) const
+{
+    for (std::size_t i = 0; i < properties.size(); i++)
+        if (properties[i].name == wanted && !properties[i].count_type) return i;
+    return none;
+}
+
+std::size_t PlyElement::find_list(std::initializer_list<std::string_view> names) const
+{
+    for (std::size_t i = 0; i < properties.size(); i++)
+        if (properties[i].count_type && std::find(names.begin(), names.end(), properties[i].name) != names.end()) return i;
+    return none;
+}
+
+const PlyElement* PlyHeader::find(std::string_view name) const
+{
+    const auto found = std::find_if(elements.begin(), elements.end(), [&](const auto& e) { return e.name == name; });
+    return found == elements.end() ? nullptr : &*found;
+}
 
 std::size_t size_of(PlyType type)
 {

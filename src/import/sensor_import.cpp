@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace sundog
 {
@@ -55,13 +56,9 @@ double read_tan_half_x(ObjectReader& reader, double aspect)
     return tangent;
 }
 
-void read_pose(ObjectReader& reader, const SceneIndex& index, Sensor& sensor)
+// Position and axes, whatever their lengths in to_world are.
+void set_pose(const Transform& to_world, const SourceLocation& where, Sensor& sensor)
 {
-    const Transform to_world = reader.transform("to_world");
-    const auto scale = to_world.uniform_scale();
-    const SourceLocation where = reader.where_of("to_world");
-    if (!scale) throw SceneError(where, "to_world of a sensor must not shear or scale unevenly: use translate, rotate and lookat");
-    if (std::abs(*scale - 1.0) > 1e-3) index.warn(where, "the scale in to_world of a sensor is ignored");
     sensor.position = to_world.point({0, 0, 0});
     if (!is_finite(sensor.position)) throw SceneError(where, "the position of the sensor is too large for 32-bit numbers");
     sensor.axis_z = normalize(to_world.vector({0, 0, 1}));
@@ -72,12 +69,61 @@ void read_pose(ObjectReader& reader, const SceneIndex& index, Sensor& sensor)
     sensor.axis_x = to_world.determinant() < 0.0 ? -x : x;
 }
 
+void read_clip_planes(ObjectReader& reader, Sensor& sensor)
+{
+    sensor.near_clip = static_cast<float>(reader.positive("near_clip", 1e-2));
+    sensor.far_clip = static_cast<float>(reader.positive("far_clip", 1e4));
+    if (!(sensor.near_clip < sensor.far_clip)) throw SceneError(reader.where_of("near_clip"), "near_clip must be smaller than far_clip");
+    sensor.focus_distance = static_cast<float>(reader.positive("focus_distance", sensor.far_clip));
+}
+
+void read_perspective(ObjectReader& reader, const SceneIndex& index, const Film& film, Sensor& sensor)
+{
+    const Transform to_world = reader.transform("to_world");
+    const auto scale = to_world.uniform_scale();
+    const SourceLocation where = reader.where_of("to_world");
+    if (!scale) throw SceneError(where, "to_world of a sensor must not shear or scale unevenly: use translate, rotate and lookat");
+    if (std::abs(*scale - 1.0) > 1e-3) index.warn(where, "the scale in to_world of a sensor is ignored");
+    set_pose(to_world, where, sensor);
+    sensor.fov_x = static_cast<float>(2.0 * std::atan(read_tan_half_x(reader, static_cast<double>(film.width) / film.height)));
+    sensor.principal_offset_x = static_cast<float>(reader.number("principal_point_offset_x", 0.0));
+    sensor.principal_offset_y = static_cast<float>(reader.number("principal_point_offset_y", 0.0));
+}
+
+// The film spans [-1, 1] along x of to_world, and along y what makes pixels square where to_world does not stretch
+// one axis more than the other.
+void read_orthographic(ObjectReader& reader, const SceneIndex& index, Sensor& sensor)
+{
+    const Transform to_world = reader.transform("to_world");
+    const SourceLocation where = reader.where_of("to_world");
+    sensor.projection = Projection::orthographic;
+    set_pose(to_world, where, sensor);
+    const Vec3 x = to_world.vector({1, 0, 0}), y = to_world.vector({0, 1, 0}), z = to_world.vector({0, 0, 1});
+    sensor.extent_x = length(x);
+    sensor.extent_y = length(y);
+    const float scale_z = length(z);
+    if (!std::isnormal(sensor.extent_x) || !std::isnormal(sensor.extent_y) || !std::isnormal(scale_z))
+        throw SceneError(where, "the scale in to_world of the sensor is out of range of 32-bit numbers");
+    constexpr float tolerance = 1e-3f; // of the cosines between axes
+    if (std::abs(dot(x, y)) > tolerance * sensor.extent_x * sensor.extent_y ||
+        std::abs(dot(y, z)) > tolerance * sensor.extent_y * scale_z || std::abs(dot(z, x)) > tolerance * scale_z * sensor.extent_x)
+        throw SceneError(where, "to_world of an orthographic sensor must not shear: scale first, then rotate, lookat and translate");
+    // Mitsuba 3 has the near plane in camera space, and the far one where the unscaled distance between them ends;
+    // 0.6 has both in world space.
+    if (!index.legacy()) {
+        const float depth = sensor.far_clip - sensor.near_clip;
+        sensor.near_clip *= scale_z;
+        sensor.far_clip = sensor.near_clip + depth;
+    }
+}
+
 void read_lens(ObjectReader& reader, const SceneIndex& index, Sensor& sensor)
 {
-    if (!reader.has("aperture_radius")) throw SceneError(reader.where(), "thinlens needs a <float name=\"aperture_radius\">");
+    if (!reader.has("aperture_radius") && reader.type() == "thinlens")
+        throw SceneError(reader.where(), "thinlens needs a <float name=\"aperture_radius\">");
     const double radius = reader.number("aperture_radius", 0.0);
     if (radius < 0.0) throw SceneError(reader.where_of("aperture_radius"), "aperture_radius must be >= 0");
-    if (radius == 0.0) index.warn(reader.where_of("aperture_radius"), "aperture_radius is 0: a pinhole, all in focus");
+    if (radius == 0.0) index.warn(reader.where_of("aperture_radius"), "aperture_radius is 0: all is in focus");
     sensor.aperture_radius = static_cast<float>(radius);
 }
 
@@ -97,10 +143,29 @@ void read_sampler(ObjectReader& sensor, const SceneIndex& index, IntegratorReque
     reader.finish();
 }
 
+// Says, for sensors that make no image of the scene or one that is not supported, what to use instead.
+[[noreturn]] void refuse_type(const ObjectReader& reader)
+{
+    constexpr std::pair<const char*, const char*> cures[] = {
+        {"radiancemeter", "it measures a single ray: use perspective with a film of one pixel and a small fov"},
+        {"irradiancemeter",
+         "it measures a shape: look at it with orthographic; the radiance of a white diffuse surface is its irradiance / pi"},
+        {"fluencemeter", "it measures a point: use perspective sensors of fov 90 along the six axes"},
+        {"distant", "use orthographic, which looks along one direction too, scaled to the size of the scene"},
+        {"hdistant", "render one orthographic sensor for each direction"},
+        {"batch", "render each of its sensors by a scene file of its own, which can <include> the rest"},
+        {"spherical", "use perspective sensors of fov 90 along the six axes"},
+        {"perspective_rdist", "use perspective and distort the image afterwards"},
+        {"microphone", "only light is rendered"},
+    };
+    const std::string type = reader.type();
+    for (const auto& [name, cure] : cures)
+        if (type == name) throw SceneError(reader.where(), "sensor plugin '" + type + "' is not supported: " + cure);
+    reader.unsupported("perspective, thinlens, orthographic, telecentric");
+}
+
 void refuse_unsupported(ObjectReader& reader)
 {
-    for (const char* name : {"principal_point_offset_x", "principal_point_offset_y"})
-        if (reader.number(name, 0.0) != 0.0) reader.refuse(name, "use a crop of a larger film");
     for (const char* name : {"shutter_open", "shutter_close"}) reader.ignore(name, "nothing in the scene moves");
     reader.refuse("srf", "remove it");
 }
@@ -111,7 +176,8 @@ void import_sensor(const XmlElement& element, const SceneIndex& index, Scene& sc
 {
     ObjectReader reader(element, index);
     const std::string type = reader.type();
-    if (type != "perspective" && type != "thinlens") reader.unsupported("perspective, thinlens");
+    const bool perspective = type == "perspective" || type == "thinlens";
+    if (!perspective && type != "orthographic" && type != "telecentric") refuse_type(reader);
 
     if (const auto film = reader.single("film")) {
         ObjectReader film_reader(*film->object, index);
@@ -121,14 +187,12 @@ void import_sensor(const XmlElement& element, const SceneIndex& index, Scene& sc
     }
     Sensor& sensor = scene.sensor;
     sensor.where = element.where;
-    read_pose(reader, index, sensor);
-    const double tan_half_x = read_tan_half_x(reader, static_cast<double>(scene.film.width) / scene.film.height);
-    sensor.fov_x = static_cast<float>(2.0 * std::atan(tan_half_x));
-    sensor.near_clip = static_cast<float>(reader.positive("near_clip", 1e-2));
-    sensor.far_clip = static_cast<float>(reader.positive("far_clip", 1e4));
-    if (!(sensor.near_clip < sensor.far_clip)) throw SceneError(reader.where_of("near_clip"), "near_clip must be smaller than far_clip");
-    sensor.focus_distance = static_cast<float>(reader.positive("focus_distance", sensor.far_clip));
-    if (type == "thinlens") read_lens(reader, index, sensor);
+    read_clip_planes(reader, sensor);
+    if (perspective)
+        read_perspective(reader, index, scene.film, sensor);
+    else
+        read_orthographic(reader, index, sensor);
+    if (type == "thinlens" || type == "telecentric") read_lens(reader, index, sensor);
     read_sampler(reader, index, scene.integrator);
     refuse_unsupported(reader);
     reader.finish();

@@ -2,6 +2,7 @@
 
 #include "import/emitter_import.h"
 #include "import/mesh_import.h"
+#include "import/mesh_parts.h"
 
 #include <map>
 
@@ -23,6 +24,9 @@ Sphere import_sphere(ObjectReader& reader)
     sphere.center = to_world.point(center);
     sphere.radius = static_cast<float>(radius * *scale);
     sphere.flip_normals = reader.boolean("flip_normals", false);
+    sphere.axis_x = normalize(to_world.vector({1, 0, 0}));
+    sphere.axis_y = normalize(to_world.vector({0, 1, 0}));
+    sphere.axis_z = normalize(to_world.vector({0, 0, 1}));
     if (!is_finite(sphere.center) || !std::isfinite(sphere.radius))
         throw SceneError(reader.where_of("to_world"), "the sphere is too large for 32-bit numbers");
     if (!(sphere.radius > 0.0f)) throw SceneError(reader.where(), "the sphere is too small for 32-bit numbers");
@@ -34,31 +38,79 @@ Disk import_disk(ObjectReader& reader)
     const Transform to_world = reader.transform("to_world");
     Disk disk{to_world.point({0, 0, 0}), to_world.vector({1, 0, 0}), to_world.vector({0, 1, 0})};
     // The normal is that of +z, outside of which a reflection must not change.
-    if ((to_world.determinant() < 0.0) != reader.boolean("flip_normals", false)) std::swap(disk.axis_u, disk.axis_v);
+    disk.flip_normals = (to_world.determinant() < 0.0) != reader.boolean("flip_normals", false);
     if (!is_finite(disk.center) || !is_finite(disk.axis_u) || !is_finite(disk.axis_v))
         throw SceneError(reader.where_of("to_world"), "the disk is too large for 32-bit numbers");
     return disk;
 }
 
-// The triangles of one material, with the vertices that they use.
-TriangleMesh extract(const ObjFile& obj, int material)
+// The frame around the axis of Mitsuba's cylinders, where their texture coordinates begin.
+std::pair<Vec3, Vec3> frame_around(Vec3 z, bool legacy)
 {
-    TriangleMesh part;
-    std::map<uint, uint> renumbered;
-    for (std::size_t i = 0; i < obj.mesh.triangles.size(); i++) {
-        if (obj.material_of_triangle[i] != material) continue;
-        std::array<uint, 3> triangle{};
-        for (std::size_t k = 0; k < 3; k++) {
-            const uint vertex = obj.mesh.triangles[i][k];
-            const auto [entry, added] = renumbered.emplace(vertex, static_cast<uint>(part.positions.size()));
-            triangle[k] = entry->second;
-            if (!added) continue;
-            part.positions.push_back(obj.mesh.positions[vertex]);
-            if (!obj.mesh.normals.empty()) part.normals.push_back(obj.mesh.normals[vertex]);
-        }
-        part.triangles.push_back(triangle);
+    if (legacy) {
+        const Vec3 y = std::abs(z.x) > std::abs(z.y) ? normalize(Vec3{z.z, 0, -z.x}) : normalize(Vec3{0, z.z, -z.y});
+        return {cross(y, z), y};
     }
-    return part;
+    // [Duff et al. 2017, "Building an Orthonormal Basis, Revisited"]
+    const float sign = std::copysign(1.0f, z.z), a = -1.0f / (sign + z.z), b = z.x * z.y * a;
+    return {{1.0f + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}};
+}
+
+Cylinder import_cylinder(ObjectReader& reader)
+{
+    const Vec3 p0 = reader.vector("p0").value_or(Vec3{0, 0, 0}), p1 = reader.vector("p1").value_or(Vec3{0, 0, 1});
+    const double radius = reader.positive("radius", 1.0);
+    const Transform to_world = reader.transform("to_world");
+    if (!(length(p1 - p0) > 0.0f) || !is_finite(p1 - p0))
+        throw SceneError(reader.where_of("p1"), "the cylinder needs two different end points 'p0' and 'p1'");
+    const auto [x, y] = frame_around(normalize(p1 - p0), reader.index().legacy());
+    const Vec3 axis = to_world.vector(p1 - p0);
+    const Vec3 across_x = to_world.vector(x), across_y = to_world.vector(y);
+    const float width = length(across_x);
+
+    Cylinder cylinder;
+    cylinder.start = to_world.point(p0);
+    cylinder.length = length(axis);
+    cylinder.radius = static_cast<float>(radius * width);
+    if (!is_finite(cylinder.start) || !std::isfinite(cylinder.length) || !std::isfinite(cylinder.radius))
+        throw SceneError(reader.where_of("to_world"), "the cylinder is too large for 32-bit numbers");
+    if (!(cylinder.radius > 0.0f) || !(cylinder.length > 0.0f))
+        throw SceneError(reader.where(), "the cylinder is too small for 32-bit numbers");
+    cylinder.axis_x = normalize(across_x);
+    cylinder.axis_y = normalize(across_y);
+    cylinder.axis_z = normalize(axis);
+    // Still round, and still upright.
+    constexpr float tolerance = 1e-3f;
+    const bool even = std::abs(length(across_y) - width) <= tolerance * width;
+    if (!even || std::abs(dot(cylinder.axis_x, cylinder.axis_y)) > tolerance ||
+        std::abs(dot(cylinder.axis_x, cylinder.axis_z)) > tolerance || std::abs(dot(cylinder.axis_y, cylinder.axis_z)) > tolerance)
+        throw SceneError(reader.where_of("to_world"),
+                         "to_world of a cylinder must scale evenly across the axis and not shear: use a mesh for elliptic or oblique ones");
+    cylinder.flip_normals = reader.boolean("flip_normals", false);
+    return cylinder;
+}
+
+// Shapes that Mitsuba has and Sundog does not, each with the way around it.
+[[noreturn]] void refuse_by_name(const ObjectReader& reader)
+{
+    constexpr const char* as_mesh = "convert it to a mesh (ply or obj)";
+    constexpr const char* as_copies = "give each copy a shape of its own, with the to_world of its instance";
+    static const std::map<std::string, const char*> cures = {
+        {"heightfield", as_mesh},
+        {"hair", "make tubes of the strands, as a mesh (ply or obj)"},
+        {"bsplinecurve", "make tubes of the curves, as a mesh (ply or obj)"},
+        {"linearcurve", "make tubes of the curves, as a mesh (ply or obj)"},
+        {"sdfgrid", "extract the surface at distance zero as a mesh (ply or obj)"},
+        {"ellipsoids", as_mesh},
+        {"ellipsoidsmesh", as_mesh},
+        {"deformable", "save the mesh of the wanted instant (ply or obj)"},
+        {"shapegroup", as_copies},
+        {"instance", as_copies},
+        {"merge", "put its shapes into the scene themselves"},
+    };
+    const auto cure = cures.find(reader.type());
+    if (cure != cures.end()) throw SceneError(reader.where(), "shape plugin '" + cure->first + "' is not supported: " + cure->second);
+    reader.unsupported("obj, ply, serialized, rectangle, cube, sphere, disk, cylinder");
 }
 
 class ShapeImport
@@ -91,11 +143,13 @@ private:
     {
         if (type == "obj") return import_obj(reader_, false).mesh;
         if (type == "ply") return import_ply(reader_);
+        if (type == "serialized") return import_serialized(reader_);
         if (type == "rectangle") return import_rectangle(reader_);
         if (type == "cube") return import_cube(reader_);
         if (type == "sphere") return import_sphere(reader_);
         if (type == "disk") return import_disk(reader_);
-        reader_.unsupported("obj, ply, rectangle, cube, sphere, disk");
+        if (type == "cylinder") return import_cylinder(reader_);
+        refuse_by_name(reader_);
     }
 
     void add_obj_with_materials()
@@ -105,11 +159,12 @@ private:
             add(std::move(obj.mesh), default_bsdf());
             return;
         }
-        for (int i = -1; i < static_cast<int>(obj.materials.size()); i++) {
-            TriangleMesh part = extract(obj, i);
-            if (!part.triangles.empty())
-                add(std::move(part), i < 0 ? default_bsdf() : obj_bsdf(obj.materials[static_cast<std::size_t>(i)]));
-        }
+        std::map<int, std::vector<uint>> triangles; // of each material; -1 for those without one
+        for (std::size_t i = 0; i < obj.material_of_triangle.size(); i++)
+            triangles[obj.material_of_triangle[i]].push_back(static_cast<uint>(i));
+        for (const auto& [material, wanted] : triangles)
+            add(extract_triangles(obj.mesh, wanted),
+                material < 0 ? default_bsdf() : obj_bsdf(obj.materials[static_cast<std::size_t>(material)]));
     }
 
     uint obj_bsdf(const ObjMaterial& material)

@@ -32,11 +32,21 @@ std::string read_text_file(const std::filesystem::path& file, const SourceLocati
     if (!std::filesystem::exists(status)) throw SceneError(wanted_at, "file '" + file.string() + "' not found");
     if (std::filesystem::is_directory(status)) throw SceneError(wanted_at, "'" + file.string() + "' is a folder, not a file");
     std::ifstream stream(file, std::ios::binary);
-    std::ostringstream content;
-    if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
-    if (!stream.is_open() || stream.bad())
+    std::string content;
+    if (std::filesystem::is_regular_file(status)) {
+        // In one piece: a stream's buffer would grow in steps and take twice the room.
+        const std::uintmax_t size = std::filesystem::file_size(file, failed);
+        content.resize(failed ? 0 : static_cast<std::size_t>(size));
+        stream.read(content.data(), static_cast<std::streamsize>(content.size()));
+        content.resize(static_cast<std::size_t>(stream.gcount()));
+    } else if (stream.peek() != std::ifstream::traits_type::eof()) {
+        std::ostringstream pieces;
+        pieces << stream.rdbuf();
+        content = std::move(pieces).str();
+    }
+    if (!stream.is_open() || stream.bad() || failed)
         throw SceneError(wanted_at, "file '" + file.string() + "' cannot be read: check its permissions");
-    return std::move(content).str();
+    return content;
 }
 
 std::optional<double> parse_number(std::string_view text)
@@ -59,14 +69,20 @@ std::optional<long long> parse_integer(std::string_view text)
 
 std::vector<std::string_view> tokens(std::string_view text)
 {
-    constexpr std::string_view separators = " \t\r\n,";
     std::vector<std::string_view> list;
+    split(text, list);
+    return list;
+}
+
+void split(std::string_view text, std::vector<std::string_view>& list)
+{
+    constexpr std::string_view separators = " \t\r\n,";
+    list.clear();
     for (std::size_t begin = 0; (begin = text.find_first_not_of(separators, begin)) != std::string_view::npos;) {
         const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
         list.push_back(text.substr(begin, end - begin));
         begin = end;
     }
-    return list;
 }
 
 } // namespace sundog

@@ -21,5 +21,6 @@ std::optional<long long> parse_integer(std::string_view text);
 
 // Splits at blanks and commas.
 std::vector<std::string_view> tokens(std::string_view text);
+void split(std::string_view text, std::vector<std::string_view>& list); // the same, over what was in the list
 
 } // namespace sundog

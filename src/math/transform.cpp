@@ -9,16 +9,6 @@ namespace sundog
 namespace
 {
 
-double dot(const Double3& a, const Double3& b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Double3 cross(const Double3& a, const Double3& b)
-{
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 Double3 normalized(const Double3& a)
 {
     const double scale = 1.0 / std::sqrt(dot(a, a));

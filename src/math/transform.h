@@ -2,15 +2,12 @@
 // and their inverse transposes loses nothing that a float would show.
 #pragma once
 
-#include "math/vec3.h"
+#include "math/double3.h"
 
-#include <array>
 #include <optional>
 
 namespace sundog
 {
-
-using Double3 = std::array<double, 3>;
 
 // Maps column vectors: transform * point. a * b applies b first.
 struct Transform {

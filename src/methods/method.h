@@ -13,6 +13,7 @@
 namespace sundog {
 
 class Device;
+class StateArchive;
 struct RenderContext; // device, uploaded scene, film, camera, sampler: methods/render_context.h
 
 // Totals since the start of the render.
@@ -34,6 +35,11 @@ public:
     virtual void resolve(Image&) const {}
 
     virtual MethodCounters counters() const = 0;
+
+    // Saves or restores all that outlives an iteration and is not in the film: statistics of pixels, totals, and
+    // whatever else the next iteration depends on. What is forgotten here makes a resumed render another one; a test
+    // holds every registered method to it.
+    virtual void serialize(StateArchive& archive) = 0;
 };
 
 // What a user may know of a method before choosing it.

@@ -10,10 +10,10 @@ namespace {
 class PathTracing final : public Method {
 public:
     PathTracing(RenderContext& context, const Parameters& parameters)
-        : context_(context), rules_(path_rules(parameters)), camera_(context.device, context.camera, context.filter, sampler_kind(parameters)),
+        : context_(context), rules_(path_rules(parameters)), camera_(context.device, context.camera, context.filter, sampler_kind(parameters), context.scene.surface_options()),
           pool_(context.device, context.scene, camera_.count()), shadow_(context.device, context.scene, camera_.count(), true)
     {
-        BuildOptions options;
+        BuildOptions options = context.scene.surface_options();
         use_sampler(options, sampler_kind(parameters));
         shade_camera_path_ = Kernel(context.device, "shade_camera_path", "Shade camera paths", options);
     }
@@ -35,6 +35,8 @@ public:
     }
 
     MethodCounters counters() const override { return {0, context_.film.iterations() * camera_.count(), 0, pool_.rays_traced()}; }
+
+    void serialize(StateArchive& archive) override { pool_.serialize(archive); }
 
 private:
     RenderContext& context_;

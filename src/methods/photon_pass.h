@@ -19,12 +19,13 @@ public:
     void trace(std::uint64_t iteration, float radius);
 
     // Sums by query, in `gather.sums`.
-    void gather_photons() { gather.gather(map, queries.queries, camera.count()); }
+    void gather_photons() { gather.gather(map, queries.queries, queries.lobes, camera.count()); }
 
     float first_radius() const { return first_radius_; }
     std::size_t light_paths() const { return light_paths_; }
     std::size_t pixels() const { return camera.count(); }
     MethodCounters counters() const;
+    void serialize(StateArchive& archive);
 
 private:
     RenderContext& context_;

@@ -28,6 +28,8 @@ public:
 
     MethodCounters counters() const override { return pass_.counters(); }
 
+    void serialize(StateArchive& archive) override { pass_.serialize(archive); }
+
 private:
     RenderContext& context_;
     double alpha_;

@@ -14,10 +14,10 @@ class LightTracing final : public Method {
 public:
     LightTracing(RenderContext& context, const Parameters& parameters)
         : context_(context), light_paths_(light_path_count(parameters, context.film.pixel_count())), max_depth_(path_rules(parameters).max_depth),
-          camera_(context.device, context.camera, context.filter, sampler_kind(parameters)),
+          camera_(context.device, context.camera, context.filter, sampler_kind(parameters), context.scene.surface_options()),
           pool_(context.device, context.scene, std::max(light_paths_, camera_.count())),
-          splats_(context.device, context.scene, light_paths_, camera_.count(), path_rules(parameters), sampler_kind(parameters)),
-          add_visible_light_(context.device, "add_visible_light", "Add visible lights")
+          splats_(context.device, context.scene, context.camera, light_paths_, camera_.count(), path_rules(parameters), sampler_kind(parameters)),
+          add_visible_light_(context.device, "add_visible_light", "Add visible lights", context.scene.surface_options())
     {
     }
 
@@ -36,6 +36,12 @@ public:
     {
         const std::uint64_t iterations = context_.film.iterations();
         return {iterations * light_paths_, iterations * camera_.count(), 0, pool_.rays_traced()};
+    }
+
+    void serialize(StateArchive& archive) override
+    {
+        pool_.serialize(archive);
+        splats_.serialize(archive);
     }
 
 private:

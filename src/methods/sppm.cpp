@@ -1,6 +1,7 @@
 // Stochastic progressive photon mapping [Hachisuka and Jensen 2009, ACM TOG 28(5)]: statistics shared by all
 // the points that a pixel sees, each iteration another one. Every pixel shrinks its own radius by the photons
 // it finds, so dense caustics sharpen first.
+#include "device/buffer_state.h"
 #include "methods/photon_pass.h"
 
 #include <cmath>
@@ -50,6 +51,12 @@ public:
     }
 
     MethodCounters counters() const override { return pass_.counters(); }
+
+    void serialize(StateArchive& archive) override
+    {
+        pass_.serialize(archive);
+        sundog::serialize(archive, "progressive pixels", pixels_);
+    }
 
 private:
     ProgressivePixel first_statistics() const

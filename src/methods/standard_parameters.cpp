@@ -95,9 +95,12 @@ std::size_t light_path_count(const Parameters& parameters, std::size_t pixels)
 
 float pixel_footprint(const Camera& camera, const Bounds& scene)
 {
+    const float width = 2.0f * camera.half_width / static_cast<float>(camera.film_width);
+    // An orthographic camera sees all distances alike; its pixels need not be square.
+    if (camera.kind == CAMERA_ORTHOGRAPHIC) return std::sqrt(width * 2.0f * camera.half_height / static_cast<float>(camera.film_height));
     // A camera in the middle of its scene sees walls about a radius away.
     const float distance = std::max(length(scene.center() - camera.position), 0.5f * scene.radius());
-    return distance * 2.0f * camera.tan_half_x / static_cast<float>(camera.film_width);
+    return distance * width;
 }
 
 float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths, float pixel_footprint)

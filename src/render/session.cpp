@@ -1,8 +1,12 @@
 #include "render/session.h"
 
+#include "base/checkpoint_file.h"
+#include "base/log.h"
 #include "base/timer.h"
 #include "device/profile.h"
 #include "methods/render_context.h"
+#include "render/checkpoint.h"
+#include "scene/fingerprint.h"
 #include "scene/flat_scene.h"
 #include "shared/film.h"
 
@@ -10,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cassert>
 
 namespace sundog {
 
@@ -101,7 +106,37 @@ struct RenderSession::State {
     std::unique_ptr<Method> method;
     std::uint64_t iterations = 0;
     double seconds = 0.0;
+    RenderProgress resumed; // what had been done when this session took over
+    std::optional<std::string> scene_fingerprint;
+
+    RenderIdentity identity();
+    RenderProgress progress();
+    void serialize(StateArchive& archive)
+    {
+        film.serialize(archive);
+        method->serialize(archive);
+    }
 };
+
+RenderIdentity RenderSession::State::identity()
+{
+    if (!scene_fingerprint) scene_fingerprint = fingerprint(flatten_scene(scene), camera, filter);
+    auto values = parameters.all();
+    std::erase_if(values, [](const auto& parameter) { return parameter.first == "iterations"; });
+    return {SUNDOG_VERSION, info.name, std::move(values), seed, scene.film.crop_width, scene.film.crop_height, scene.file, *scene_fingerprint};
+}
+
+RenderProgress RenderSession::State::progress()
+{
+    RenderProgress progress{device.info().name, iterations, seconds, resumed.stage_seconds};
+    for (const StageTime& stage : device.profile().stages()) {
+        auto& sums = progress.stage_seconds;
+        const auto known = std::find_if(sums.begin(), sums.end(), [&](const auto& sum) { return sum.first == stage.label; });
+        if (known == sums.end()) sums.emplace_back(stage.label, stage.seconds);
+        else known->second += stage.seconds;
+    }
+    return progress;
+}
 
 RenderSession::RenderSession(Scene scene, Device& device, const RenderSettings& settings) : state_(std::make_unique<State>(std::move(scene), device, settings)) {}
 
@@ -129,6 +164,29 @@ std::uint64_t RenderSession::iterations_done() const
     return state_->iterations;
 }
 
+void RenderSession::save_checkpoint(const std::filesystem::path& file) const
+{
+    CheckpointWriter writer(file);
+    writer.text("render", checkpoint_text(state_->identity(), state_->progress()));
+    state_->serialize(writer);
+    writer.commit();
+}
+
+void RenderSession::resume(const std::filesystem::path& file)
+{
+    assert(state_->iterations == 0);
+    CheckpointReader reader(file);
+    state_->resumed = progress_of_same_render(reader.text("render"), state_->identity(), file);
+    state_->serialize(reader);
+    reader.finish();
+    state_->iterations = state_->resumed.iterations;
+    state_->seconds = state_->resumed.seconds;
+    const std::string& device = state_->device.info().name;
+    if (state_->resumed.device != device)
+        log_warning(fmt::format("{} was rendered on {}; going on with {} is as good, but not the same to the last bit", file.string(),
+                                state_->resumed.device, device));
+}
+
 Image RenderSession::image() const
 {
     Image image = state_->film.resolve();
@@ -139,6 +197,7 @@ Image RenderSession::image() const
     image.metadata = {{"sundog:version", SUNDOG_VERSION},
                       {"sundog:method", s.method},
                       {"sundog:parameters", fmt::format("{}", fmt::join(parameters, " "))},
+                      {"sundog:scene", state_->identity().scene},
                       {"sundog:seed", std::to_string(s.seed)},
                       {"sundog:iterations", std::to_string(s.iterations)},
                       {"sundog:light_subpaths", std::to_string(s.counters.light_subpaths)},
@@ -156,11 +215,11 @@ RenderStatistics RenderSession::statistics() const
     statistics.seed = state_->seed;
     statistics.device = state_->device.info().name;
     statistics.iterations = state_->iterations;
+    statistics.resumed_iterations = state_->resumed.iterations;
     statistics.counters = state_->method->counters();
     statistics.render_seconds = state_->seconds;
-    Profile& profile = state_->device.profile();
-    statistics.kernel_build_seconds = profile.build_seconds();
-    for (const StageTime& stage : profile.stages()) statistics.stage_seconds.emplace_back(stage.label, stage.seconds);
+    statistics.stage_seconds = state_->progress().stage_seconds;
+    statistics.kernel_build_seconds = state_->device.profile().build_seconds();
     statistics.peak_device_bytes = state_->device.peak_bytes();
     statistics.invalid_samples = state_->film.invalid_samples();
     return statistics;

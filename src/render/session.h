@@ -7,6 +7,7 @@
 #include "scene/scene.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -27,7 +28,8 @@ struct RenderStatistics {
     std::vector<std::pair<std::string, std::string>> parameters;
     std::uint64_t seed = 0;
     std::string device;
-    std::uint64_t iterations = 0;
+    std::uint64_t iterations = 0; // with those of a checkpoint, as are counters, render and stage seconds
+    std::uint64_t resumed_iterations = 0; // of them, done before this session
     MethodCounters counters;
     double render_seconds = 0.0; // wall time in iterate()
     double kernel_build_seconds = 0.0;
@@ -48,7 +50,15 @@ public:
 
     // Renders one iteration and waits for it.
     void iterate();
-    std::uint64_t iterations_done() const;
+    std::uint64_t iterations_done() const; // with those of a checkpoint
+
+    // Saves all that iterations have added up to FILE, whole or not at all. At least one must be done. Throws FileError.
+    void save_checkpoint(const std::filesystem::path& file) const;
+
+    // Goes on where FILE was saved, instead of a first iteration: what follows is, bit for bit, what would have followed
+    // there (on the same device; on another one, with a warning, it is as good). Throws FileError when FILE is
+    // damaged, or is of another scene, method, parameter, seed or size; the session is of no use then.
+    void resume(const std::filesystem::path& file);
 
     // The image so far, with AOV channels and metadata. At least one iteration must be done.
     Image image() const;

@@ -96,16 +96,27 @@ bool in_range(Vec3 v)
                              " has a coordinate that is not finite or beyond 1e12; check the mesh and its transform");
 }
 
+const char* kind_name(const AnalyticPrimitive& primitive)
+{
+    return primitive.kind == ANALYTIC_SPHERE ? "sphere" : primitive.kind == ANALYTIC_DISK ? "disk" : "cylinder";
+}
+
 Bounds bounds_of(const AnalyticPrimitive& primitive)
 {
-    Point extent;
+    Point extent, center = to_point(primitive.center);
+    double largest = 0.0;
     for (int k = 0; k < 3; k++) {
         const double u = component(primitive.axis_u, k), v = component(primitive.axis_v, k);
         extent[k] = primitive.kind == ANALYTIC_SPHERE ? primitive.radius : std::sqrt(u * u + v * v);
+        if (primitive.kind == ANALYTIC_CYLINDER) {
+            const double half = 0.5 * static_cast<double>(primitive.length) * component(primitive.normal, k);
+            center[k] += half;
+            extent[k] = extent[k] * primitive.radius + std::abs(half);
+        }
+        largest = std::max(largest, extent[k]);
     }
     // Room for the rounding of the device's own test.
-    const double room = 1e-6 * std::max(extent[0], std::max(extent[1], extent[2]));
-    const Point center = to_point(primitive.center);
+    const double room = 1e-6 * largest;
     Point lower, upper;
     for (int k = 0; k < 3; k++) {
         lower[k] = center[k] - extent[k] - room;
@@ -138,7 +149,7 @@ std::vector<BvhPrimitive> collect_primitives(const BvhGeometry& geometry)
         const AnalyticPrimitive& primitive = geometry.analytics[i];
         const Bounds bounds = bounds_of(primitive);
         if (!in_range(bounds.lower) || !in_range(bounds.upper))
-            throw_out_of_range(primitive.kind == ANALYTIC_SPHERE ? "sphere" : "disk", i);
+            throw_out_of_range(kind_name(primitive), i);
         primitives.push_back({bounds, static_cast<uint>(i) | ANALYTIC_BIT});
     }
     return primitives;

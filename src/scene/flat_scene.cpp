@@ -1,5 +1,7 @@
 #include "scene/flat_scene.h"
 
+#include "scene/flatten_bsdfs.h"
+#include "scene/flatten_textures.h"
 #include "scene/light_list.h"
 
 #include <algorithm>
@@ -7,63 +9,6 @@
 namespace sundog {
 
 namespace {
-
-Bsdf flatten(const DiffuseBsdf& diffuse)
-{
-    Bsdf bsdf{};
-    bsdf.type = BSDF_DIFFUSE;
-    bsdf.reflectance = diffuse.reflectance;
-    return bsdf;
-}
-
-Bsdf flatten(const DielectricBsdf& dielectric)
-{
-    Bsdf bsdf{};
-    bsdf.type = dielectric.thin ? BSDF_THIN_DIELECTRIC : BSDF_DIELECTRIC;
-    bsdf.eta = dielectric.int_ior / dielectric.ext_ior;
-    bsdf.reflectance = dielectric.specular_reflectance;
-    bsdf.transmittance = dielectric.specular_transmittance;
-    return bsdf;
-}
-
-Bsdf flatten(const ConductorBsdf& conductor)
-{
-    Bsdf bsdf{};
-    bsdf.type = BSDF_CONDUCTOR;
-    bsdf.reflectance = conductor.specular_reflectance;
-    bsdf.eta_rgb = conductor.eta;
-    bsdf.k_rgb = conductor.k;
-    return bsdf;
-}
-
-Bsdf flatten(const NullBsdf&)
-{
-    Bsdf bsdf{};
-    bsdf.type = BSDF_NULL;
-    return bsdf;
-}
-
-// A two-sided BSDF is its front's record that names the back's, itself a record of its own.
-std::vector<Bsdf> flatten_bsdfs(const std::vector<BsdfDescription>& descriptions)
-{
-    std::vector<Bsdf> bsdfs(descriptions.size());
-    for (std::size_t i = 0; i < descriptions.size(); i++) {
-        if (std::holds_alternative<TwoSidedBsdf>(descriptions[i].model)) continue;
-        std::visit(
-            [&](const auto& model) {
-                if constexpr (!std::is_same_v<std::decay_t<decltype(model)>, TwoSidedBsdf>) bsdfs[i] = flatten(model);
-            },
-            descriptions[i].model);
-    }
-    for (std::size_t i = 0; i < descriptions.size(); i++) {
-        if (const auto* sides = std::get_if<TwoSidedBsdf>(&descriptions[i].model)) {
-            bsdfs[i] = bsdfs.at(sides->front);
-            bsdfs[i].flags |= BSDF_TWO_SIDED;
-            bsdfs[i].back = sides->back;
-        }
-    }
-    return bsdfs;
-}
 
 struct ShapeFlattener {
     FlatScene& flat;
@@ -79,6 +24,11 @@ struct ShapeFlattener {
             flat.normals.resize(base, Vec3{});
             flat.normals.insert(flat.normals.end(), mesh.normals.begin(), mesh.normals.end());
         }
+        if (!mesh.uvs.empty()) {
+            shape.flags |= SHAPE_HAS_UVS;
+            flat.uvs.resize(base, Vec2{});
+            flat.uvs.insert(flat.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
+        }
         const uint index = static_cast<uint>(flat.shapes.size());
         for (const auto& t : mesh.triangles) flat.triangles.push_back({{base + t[0], base + t[1], base + t[2]}, index});
     }
@@ -90,6 +40,9 @@ struct ShapeFlattener {
         primitive.kind = ANALYTIC_SPHERE;
         primitive.center = sphere.center;
         primitive.radius = sphere.radius;
+        primitive.axis_u = sphere.axis_x;
+        primitive.axis_v = sphere.axis_y;
+        primitive.normal = sphere.axis_z;
         add(primitive);
     }
 
@@ -100,7 +53,21 @@ struct ShapeFlattener {
         primitive.center = disk.center;
         primitive.axis_u = disk.axis_u;
         primitive.axis_v = disk.axis_v;
-        primitive.normal = normalize(cross(disk.axis_u, disk.axis_v));
+        primitive.normal = disk.normal();
+        add(primitive);
+    }
+
+    void operator()(const Cylinder& cylinder) const
+    {
+        if (cylinder.flip_normals) shape.flags |= SHAPE_FLIP_NORMALS;
+        AnalyticPrimitive primitive{};
+        primitive.kind = ANALYTIC_CYLINDER;
+        primitive.center = cylinder.start;
+        primitive.radius = cylinder.radius;
+        primitive.length = cylinder.length;
+        primitive.axis_u = cylinder.axis_x;
+        primitive.axis_v = cylinder.axis_y;
+        primitive.normal = cylinder.axis_z;
         add(primitive);
     }
 
@@ -118,12 +85,15 @@ FlatScene flatten_scene(const Scene& scene)
 {
     FlatScene flat;
     flat.bsdfs = flatten_bsdfs(scene.bsdfs);
+    flatten_textures(scene, flat);
     for (const auto& description : scene.shapes) {
         Shape shape{description.bsdf, NO_LIGHT, 0, 0};
         std::visit(ShapeFlattener{flat, shape}, description.geometry);
         flat.shapes.push_back(shape);
     }
     if (!flat.normals.empty()) flat.normals.resize(flat.positions.size(), Vec3{});
+    if (!flat.uvs.empty()) flat.uvs.resize(flat.positions.size(), Vec2{});
+    list_attributes(scene, flat);
 
     const Bounds bounds = scene.bounds();
     flat.globals.center = bounds.center();
@@ -133,6 +103,17 @@ FlatScene flatten_scene(const Scene& scene)
     return flat;
 }
 
+bool has_delta_lights(const FlatScene& flat)
+{
+    return std::any_of(flat.lights.begin(), flat.lights.end(), [](const Light& light) { return LIGHT_IS_DELTA(light.type); });
+}
+
+bool needs_texture_coordinates(const FlatScene& flat)
+{
+    const auto anisotropic = [](const Bsdf& bsdf) { return bsdf.alpha_u.value != bsdf.alpha_v.value || bsdf.alpha_u.texture != bsdf.alpha_v.texture; };
+    return !flat.textures.empty() || std::any_of(flat.bsdfs.begin(), flat.bsdfs.end(), anisotropic);
+}
+
 Camera make_camera(const Sensor& sensor, const Film& film)
 {
     Camera camera{};
@@ -140,8 +121,12 @@ Camera make_camera(const Sensor& sensor, const Film& film)
     camera.axis_x = sensor.axis_x;
     camera.axis_y = sensor.axis_y;
     camera.axis_z = sensor.axis_z;
-    camera.tan_half_x = std::tan(0.5f * sensor.fov_x);
-    camera.tan_half_y = camera.tan_half_x * static_cast<float>(film.height) / static_cast<float>(film.width);
+    const bool orthographic = sensor.projection == Projection::orthographic;
+    camera.kind = orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE;
+    camera.half_width = orthographic ? sensor.extent_x : std::tan(0.5f * sensor.fov_x);
+    camera.half_height = (orthographic ? sensor.extent_y : camera.half_width) * static_cast<float>(film.height) / static_cast<float>(film.width);
+    camera.shift_x = -2.0f * sensor.principal_offset_x * camera.half_width;
+    camera.shift_y = -2.0f * sensor.principal_offset_y * camera.half_height;
     camera.aperture_radius = sensor.aperture_radius;
     camera.focus_distance = sensor.focus_distance;
     camera.near_clip = sensor.near_clip;

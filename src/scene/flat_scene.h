@@ -12,6 +12,11 @@ namespace sundog {
 struct FlatScene {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals; // one a position when any shape has them, else empty
+    std::vector<Vec2> uvs; // one a position when any shape has them, else empty
+    std::vector<AttributeRange> attribute_ranges; // globals.attribute_count a shape
+    std::vector<Vec3> attribute_values;
+    std::vector<Texture> textures;
+    std::vector<uint> texels;
     std::vector<Triangle> triangles;
     std::vector<AnalyticPrimitive> analytics;
     std::vector<Shape> shapes;
@@ -21,8 +26,14 @@ struct FlatScene {
     SceneGlobals globals{}; // all but bvh_root
 };
 
-// Throws SceneError when no light has any power.
+// Throws SceneError when no light has any power, or textures are larger than what 32 bits can address.
 FlatScene flatten_scene(const Scene& scene);
+
+// Whether paths may start at a light that none can hit: points and directions.
+bool has_delta_lights(const FlatScene& flat);
+
+// Whether kernels need texture coordinates: for textures and anisotropic lobes.
+bool needs_texture_coordinates(const FlatScene& flat);
 
 // Vose's alias method for the given non-negative weights, of which at least one is positive; also gives each
 // column's normalised probability. [Vose 1991, IEEE TSE 17(9)]

@@ -12,7 +12,17 @@ constexpr double pi = std::numbers::pi;
 float area_of(const AnalyticPrimitive& primitive)
 {
     if (primitive.kind == ANALYTIC_SPHERE) return static_cast<float>(4.0 * pi) * primitive.radius * primitive.radius;
+    if (primitive.kind == ANALYTIC_CYLINDER) return static_cast<float>(2.0 * pi) * primitive.radius * primitive.length;
     return static_cast<float>(pi) * length(cross(primitive.axis_u, primitive.axis_v));
+}
+
+uint light_type(const AnalyticPrimitive& primitive)
+{
+    switch (primitive.kind) {
+    case ANALYTIC_SPHERE: return LIGHT_SPHERE;
+    case ANALYTIC_CYLINDER: return LIGHT_CYLINDER;
+    default: return LIGHT_DISK;
+    }
 }
 
 float area_of(const FlatScene& flat, const Triangle& triangle)
@@ -38,7 +48,7 @@ void list_area_lights(const Scene& scene, FlatScene& flat)
             }
         } else {
             const AnalyticPrimitive& primitive = flat.analytics[shape.first_primitive];
-            light.type = primitive.kind == ANALYTIC_SPHERE ? LIGHT_SPHERE : LIGHT_DISK;
+            light.type = light_type(primitive);
             light.primitive = shape.first_primitive | ANALYTIC_BIT;
             light.area = area_of(primitive);
             flat.lights.push_back(light);

@@ -26,7 +26,22 @@ Bounds bounds_of(const Disk& disk)
     return {disk.center - r, disk.center + r};
 }
 
+Bounds bounds_of(const Cylinder& cylinder)
+{
+    const Vec3 end = cylinder.start + cylinder.axis_z * cylinder.length;
+    const Vec3 r = Vec3{std::hypot(cylinder.axis_x.x, cylinder.axis_y.x), std::hypot(cylinder.axis_x.y, cylinder.axis_y.y),
+                        std::hypot(cylinder.axis_x.z, cylinder.axis_y.z)} *
+                   cylinder.radius;
+    return {min(cylinder.start, end) - r, max(cylinder.start, end) + r};
+}
+
 } // namespace
+
+Vec3 Disk::normal() const
+{
+    const Vec3 n = normalize(cross(axis_u, axis_v));
+    return flip_normals ? -n : n;
+}
 
 std::size_t Scene::triangle_count() const
 {

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -31,36 +32,121 @@ struct MeshAttribute {
 struct TriangleMesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals; // empty, or one a position (unit length)
-    std::vector<Vec2> uvs; // texture coordinates: empty, or one a position
+    std::vector<Vec2> uvs{}; // texture coordinates: empty, or one a position
     std::vector<std::array<uint, 3>> triangles; // counter-clockwise seen from the normal's side
-    std::vector<MeshAttribute> attributes;
+    std::vector<MeshAttribute> attributes{};
 };
 
 struct Sphere {
     Vec3 center;
     float radius = 1.0f;
     bool flip_normals = false;
+    Vec3 axis_x{1, 0, 0}; // of its texture coordinates, unit length
+    Vec3 axis_y{0, 1, 0};
+    Vec3 axis_z{0, 0, 1};
 };
 
-// centre + a * axis_u + b * axis_v, a^2 + b^2 <= 1; normal along axis_u x axis_v.
+// centre + a * axis_u + b * axis_v, a^2 + b^2 <= 1; normal along axis_u x axis_v unless flipped.
 struct Disk {
     Vec3 center;
     Vec3 axis_u;
     Vec3 axis_v;
+    bool flip_normals = false;
+
+    Vec3 normal() const; // unit length
+};
+
+// Open at both ends; normals away from the axis unless flipped. The axes are of unit length and orthogonal; x and y are
+// those of its texture coordinates.
+struct Cylinder {
+    Vec3 start; // of the axis, which is along axis_z
+    float radius = 1.0f;
+    float length = 1.0f;
+    bool flip_normals = false;
+    Vec3 axis_x{1, 0, 0};
+    Vec3 axis_y{0, 1, 0};
+    Vec3 axis_z{0, 0, 1};
+};
+
+// --- Textures -----------------------------------------------------------------
+
+// A value, or a texture (an index into Scene::textures) and a factor on it.
+struct ColorSource {
+    Vec3 value{1, 1, 1};
+    std::optional<uint> texture;
+
+    ColorSource() = default;
+    ColorSource(Vec3 color) : value(color) {}
+    ColorSource(float r, float g, float b) : value{r, g, b} {}
+    ColorSource(Vec3 factor, uint index) : value(factor), texture(index) {}
+};
+
+// The same for a number; a texture counts by its luminance.
+struct NumberSource {
+    float value = 1.0f;
+    std::optional<uint> texture;
+
+    NumberSource() = default;
+    NumberSource(float number) : value(number) {}
+    NumberSource(float factor, uint index) : value(factor), texture(index) {}
+};
+
+enum class TexelFormat { srgb8, linear8, half }; // as TEXELS_... of kernels/shared/texture.h
+enum class WrapMode { repeat, mirror, clamp };
+enum class TextureFilter { nearest, bilinear };
+
+// Rows from the top.
+struct TexelImage {
+    int width = 0;
+    int height = 0;
+    TexelFormat format = TexelFormat::srgb8;
+    std::vector<uint> texels; // a texel's one (8 bits) or two (half) words
+
+    std::size_t words_per_texel() const { return format == TexelFormat::half ? 2 : 1; }
+};
+
+struct BitmapTexture {
+    std::shared_ptr<const TexelImage> image;
+    WrapMode wrap = WrapMode::repeat;
+    TextureFilter filter = TextureFilter::bilinear;
+};
+
+struct CheckerboardTexture {
+    ColorSource colors[2];
+};
+
+struct AttributeTexture {
+    std::string name; // of a MeshAttribute; 0 where a shape has none
+};
+
+struct TextureDescription {
+    std::string id;
+    SourceLocation where;
+    std::array<float, 3> to_u{1, 0, 0}; // u' = to_u . (u, v, 1)
+    std::array<float, 3> to_v{0, 1, 0};
+    std::variant<BitmapTexture, CheckerboardTexture, AttributeTexture> model;
 };
 
 // --- Scattering ---------------------------------------------------------------
 
+// Of microfacets: root mean square slope times sqrt(2), along the texture's u and v.
+struct Roughness {
+    bool beckmann = false; // else Trowbridge and Reitz (GGX)
+    NumberSource alpha_u{0.0f};
+    NumberSource alpha_v{0.0f};
+};
+
 struct DiffuseBsdf {
-    Vec3 reflectance{0.5f, 0.5f, 0.5f};
+    ColorSource reflectance{0.5f, 0.5f, 0.5f};
 };
 
 struct DielectricBsdf {
     float int_ior = 1.5046f; // bk7
     float ext_ior = 1.000277f; // air
     bool thin = false;
-    Vec3 specular_reflectance{1, 1, 1};
-    Vec3 specular_transmittance{1, 1, 1};
+    ColorSource specular_reflectance;
+    ColorSource specular_transmittance;
+    std::optional<Roughness> roughness = std::nullopt; // never of a thin one
 };
 
 // eta and k relative to the exterior medium. eta = 0 and k = 1 (material "none")
@@ -68,10 +154,22 @@ struct DielectricBsdf {
 struct ConductorBsdf {
     Vec3 eta{0, 0, 0};
     Vec3 k{1, 1, 1};
-    Vec3 specular_reflectance{1, 1, 1};
+    ColorSource specular_reflectance;
+    std::optional<Roughness> roughness = std::nullopt;
 };
 
 struct NullBsdf {};
+
+// `nested` where the mask is opaque, else nothing at all.
+struct MaskBsdf {
+    NumberSource opacity{0.5f};
+    uint nested = 0; // index into Scene::bsdfs
+};
+
+struct BlendBsdf {
+    NumberSource weight{0.5f}; // of the second
+    uint nested[2] = {0, 0};
+};
 
 // Indices into Scene::bsdfs, neither of them a TwoSidedBsdf.
 struct TwoSidedBsdf {
@@ -82,7 +180,7 @@ struct TwoSidedBsdf {
 struct BsdfDescription {
     std::string id; // as in the file, may be empty
     SourceLocation where;
-    std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, NullBsdf, TwoSidedBsdf> model;
+    std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, NullBsdf, TwoSidedBsdf, MaskBsdf, BlendBsdf> model;
 };
 
 // --- Emitters -----------------------------------------------------------------
@@ -94,7 +192,7 @@ struct AreaEmitter {
 struct ShapeDescription {
     std::string id;
     SourceLocation where;
-    std::variant<TriangleMesh, Sphere, Disk> geometry;
+    std::variant<TriangleMesh, Sphere, Disk, Cylinder> geometry;
     uint bsdf = 0; // index into Scene::bsdfs
     std::optional<AreaEmitter> emitter;
 };
@@ -128,14 +226,21 @@ struct EmitterDescription {
 
 // --- Sensor and film ------------------------------------------------------------
 
+enum class Projection { perspective, orthographic };
+
 struct Sensor {
     SourceLocation where;
-    Vec3 position{0, 0, 0};
+    Projection projection = Projection::perspective;
+    Vec3 position{0, 0, 0}; // of the lens; orthographic: where the axis meets the film
     Vec3 axis_x{1, 0, 0}; // unit length; +x points to the image's left, as in Mitsuba
     Vec3 axis_y{0, 1, 0};
     Vec3 axis_z{0, 0, 1}; // viewing direction
-    float fov_x = 0.6911504f; // horizontal, of the full film (rad)
-    float near_clip = 1e-2f;
+    float fov_x = 0.6911504f; // perspective: horizontal, of the full film (rad)
+    float extent_x = 1.0f; // orthographic: half the width of the full film (scene units)
+    float extent_y = 1.0f; // and half the height that it had if it were as many pixels high as wide
+    float principal_offset_x = 0.0f; // from the film's centre to its left, in widths of the full film
+    float principal_offset_y = 0.0f; // and up, in heights: the axis meets the film there
+    float near_clip = 1e-2f; // along axis_z, as far_clip: nothing nearer shows or occludes
     float far_clip = 1e4f;
     float aperture_radius = 0.0f; // 0: pinhole
     float focus_distance = 0.0f; // along axis_z
@@ -180,6 +285,7 @@ struct IntegratorRequest {
 
 struct Scene {
     std::string file;
+    std::vector<TextureDescription> textures;
     std::vector<BsdfDescription> bsdfs;
     std::vector<ShapeDescription> shapes;
     std::vector<EmitterDescription> emitters; // all but area emitters

@@ -33,6 +33,11 @@ double area_of(const Disk& disk)
     return std::numbers::pi * static_cast<double>(length(cross(disk.axis_u, disk.axis_v)));
 }
 
+double area_of(const Cylinder& cylinder)
+{
+    return 2.0 * std::numbers::pi * cylinder.radius * cylinder.length;
+}
+
 Vec3 emission_of(const EmitterDescription& emitter)
 {
     struct Emission {

@@ -8,10 +8,16 @@
 
 namespace sundog {
 
+// Specialises kernels that make camera rays or connect to the camera.
+inline void use_camera(BuildOptions& options, const Camera& camera)
+{
+    options.defines.emplace_back("CAMERA_KIND", std::to_string(camera.kind) + "u");
+}
+
 // One path a pixel of the crop.
 class CameraPaths {
 public:
-    CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler);
+    CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, const BuildOptions& surface_options = {});
 
     // Starts the pool's paths at the camera, finds their first hits, and clears `radiance`.
     void start(const DeviceScene& scene, PathPool& pool, SamplerKey key);

@@ -2,6 +2,7 @@
 // divided, and no atomics are needed.
 #pragma once
 
+#include "base/state_archive.h"
 #include "device/kernel.h"
 #include "shared/path.h"
 #include "shared/queue.h"
@@ -66,6 +67,17 @@ public:
     {
         records_ = {}; // give back before asking for more
         records_ = Buffer<Record>(*device_, needed + needed / 8, name_);
+    }
+
+    // The capacity only: records live for one iteration, but with another capacity a photon map would lay its cells
+    // out, and so order its sums, in another way.
+    void serialize(StateArchive& archive)
+    {
+        std::uint64_t capacity = records_.size();
+        archive.value(name_ + " capacity", capacity);
+        if (capacity == records_.size()) return;
+        records_ = {};
+        records_ = Buffer<Record>(*device_, static_cast<std::size_t>(capacity), name_);
     }
 
     const Buffer<Record>& records() const { return records_; }

@@ -1,5 +1,7 @@
 #include "stages/device_scene.h"
 
+#include "scene/flatten_bsdfs.h"
+
 namespace sundog {
 
 namespace {
@@ -11,6 +13,14 @@ template <class T> Buffer<T> upload(Device& device, const std::vector<T>& data, 
     return data.empty() ? Buffer<T>(device, std::vector<T>(1), label) : Buffer<T>(device, data, label);
 }
 
+BuildOptions surface_options(const FlatScene& flat)
+{
+    BuildOptions options;
+    options.defines.emplace_back("BSDF_TYPES", std::to_string(bsdf_types(flat.bsdfs)) + "u");
+    options.defines.emplace_back("HAS_UV", needs_texture_coordinates(flat) ? "1" : "0");
+    return options;
+}
+
 } // namespace
 
 DeviceScene::DeviceScene(Device& device, const Scene& scene)
@@ -19,6 +29,9 @@ DeviceScene::DeviceScene(Device& device, const Scene& scene)
     const Bvh bvh = build_bvh({flat.positions, flat.triangles, flat.analytics});
     bounds_ = bvh.bounds;
     trace_options_ = sundog::trace_options(flat.analytics);
+    surface_options_ = sundog::surface_options(flat);
+    has_delta_lights_ = sundog::has_delta_lights(flat);
+    has_lobes_to_evaluate_ = sundog::has_lobes_to_evaluate(flat.bsdfs);
     geometry_ = upload_geometry(device, bvh, flat.analytics, flat.globals);
 #define UPLOAD(type, name) name = upload(device, flat.name, #name);
     SURFACE_ARRAYS(UPLOAD)

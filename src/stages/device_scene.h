@@ -22,6 +22,12 @@ public:
     // What kernels that trace rays are specialised for.
     const BuildOptions& trace_options() const { return trace_options_; }
 
+    // What kernels that look at surfaces are specialised for: the types of BSDF, and whether there are textures.
+    const BuildOptions& surface_options() const { return surface_options_; }
+
+    bool has_delta_lights() const { return has_delta_lights_; }               // see the function of that name
+    bool has_lobes_to_evaluate() const { return has_lobes_to_evaluate_; } // the same
+
     float radius() const { return bounds_.radius(); } // of the bounding sphere
     const Bounds& bounds() const { return bounds_; }
 
@@ -30,6 +36,9 @@ private:
 
     Bounds bounds_;
     BuildOptions trace_options_;
+    BuildOptions surface_options_;
+    bool has_delta_lights_;
+    bool has_lobes_to_evaluate_;
     GeometryBuffers geometry_;
 #define AS_BUFFER(type, name) Buffer<type> name;
     SURFACE_ARRAYS(AS_BUFFER)

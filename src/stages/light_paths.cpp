@@ -2,10 +2,10 @@
 
 namespace sundog {
 
-PhotonTracer::PhotonTracer(Device& device, const PhotonTracerSettings& settings)
+PhotonTracer::PhotonTracer(Device& device, const DeviceScene& scene, const PhotonTracerSettings& settings)
     : settings_(settings), deposits_(device, settings.paths, "photon deposits"), photons_(device, "photons", settings.paths)
 {
-    BuildOptions options;
+    BuildOptions options = scene.surface_options();
     use_sampler(options, settings.sampler);
     emit_light_paths_ = Kernel(device, "emit_light_paths", "Emit light paths", options);
     options.defines.emplace_back("DIRECT_LIGHT", settings.direct_light_elsewhere ? "1" : "0");

@@ -16,12 +16,14 @@ struct PhotonTracerSettings {
 
 class PhotonTracer {
 public:
-    PhotonTracer(Device& device, const PhotonTracerSettings& settings);
+    PhotonTracer(Device& device, const DeviceScene& scene, const PhotonTracerSettings& settings);
 
     // Traces one iteration's light paths to their ends. Returns the number of photons stored.
     std::size_t trace(const DeviceScene& scene, PathPool& pool, SamplerKey key);
 
     const RecordList<Photon>& photons() const { return photons_; }
+
+    void serialize(StateArchive& archive) { photons_.serialize(archive); }
 
 private:
     void trace_once(const DeviceScene& scene, PathPool& pool, SamplerKey key);

@@ -2,6 +2,7 @@
 // turns in one pool.
 #pragma once
 
+#include "base/state_archive.h"
 #include "shared/ray.h"
 #include "stages/compaction.h"
 #include "stages/device_scene.h"
@@ -35,6 +36,9 @@ public:
 
     std::uint64_t rays_traced() const { return rays_traced_; }
     std::size_t capacity() const { return capacity_; }
+
+    // Of what outlives an iteration there is only the count.
+    void serialize(StateArchive& archive) { archive.value("rays traced", rays_traced_); }
 
 private:
     std::size_t capacity_;

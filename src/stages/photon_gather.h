@@ -1,22 +1,31 @@
 // Queries answered by the photon map.
 #pragma once
 
+#include "shared/bsdf.h"
 #include "stages/photon_map.h"
+
+#include <optional>
 
 namespace sundog {
 
 class PhotonGather {
 public:
-    // estimator: an embedded header, such as "estimators/radiance_estimate.h"; density_kernel: n of (1 - t^2)^n.
-    PhotonGather(Device& device, std::size_t capacity, std::string estimator, int density_kernel)
-        : sums(device, capacity, "gathered sums"),
-          gather_photons_(device, "gather_photons", "Gather photons", {{{"DENSITY_KERNEL", std::to_string(density_kernel)}}, {std::move(estimator)}})
+    // estimator: an embedded header, such as "estimators/radiance_estimate.h"; density_kernel: n of (1 - t^2)^n;
+    // lobes: the scene's surface options where it has lobes to evaluate.
+    PhotonGather(Device& device, std::size_t capacity, std::string estimator, int density_kernel, const std::optional<BuildOptions>& lobes = {})
+        : sums(device, capacity, "gathered sums")
     {
+        BuildOptions options = lobes.value_or(BuildOptions{});
+        options.defines.emplace_back("GATHERS_LOBES", lobes ? "1" : "0");
+        options.defines.emplace_back("DENSITY_KERNEL", std::to_string(density_kernel));
+        options.prelude.push_back(std::move(estimator));
+        gather_photons_ = Kernel(device, "gather_photons", "Gather photons", options);
     }
 
-    void gather(const PhotonMap& map, const Buffer<GatherQuery>& queries, std::size_t count)
+    // lobes: by query, read where a query says so.
+    void gather(const PhotonMap& map, const Buffer<GatherQuery>& queries, const Buffer<LobeRecord>& lobes, std::size_t count)
     {
-        gather_photons_(count, map.grid(), map.cell_ends(), map.cell_ends_offset(), map.streams(), queries, static_cast<uint>(count), sums);
+        gather_photons_(count, map.grid(), map.cell_ends(), map.cell_ends_offset(), map.streams(), queries, lobes, static_cast<uint>(count), sums);
     }
 
     Buffer<GatherSum> sums; // by query: what the estimator's estimator_end returns

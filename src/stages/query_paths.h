@@ -1,6 +1,7 @@
 // Camera paths that look for photons.
 #pragma once
 
+#include "shared/bsdf.h"
 #include "shared/photon.h"
 #include "stages/camera_paths.h"
 
@@ -16,6 +17,7 @@ public:
     void trace(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, SamplerKey key, float radius);
 
     Buffer<GatherQuery> queries; // by path; radius 0 where there is none
+    Buffer<LobeRecord> lobes;    // by path, where the query evaluates one
 
 private:
     PathRules rules_;

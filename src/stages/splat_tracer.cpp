@@ -4,14 +4,16 @@
 
 namespace sundog {
 
-SplatTracer::SplatTracer(Device& device, const DeviceScene& scene, std::size_t paths, std::size_t pixels, PathRules rules, SamplerKind sampler)
+SplatTracer::SplatTracer(Device& device, const DeviceScene& scene, const Camera& camera, std::size_t paths, std::size_t pixels, PathRules rules,
+                         SamplerKind sampler)
     : device_(&device), path_count_(paths), pixels_(pixels), rules_(rules), flag_unoccluded_(device, "flag_unoccluded", "Flag free splats"),
       splat_pixel_keys_(device, "splat_pixel_keys", "Find splat pixels"), add_splats_(device, "add_splats", "Add splats"), shadow_(device, scene, paths, false),
       deposits_(device, paths, "splat deposits"), splats_(device, "splats", paths)
 {
-    BuildOptions options;
+    BuildOptions options = scene.surface_options();
     use_sampler(options, sampler);
     emit_light_paths_ = Kernel(device, "emit_light_paths", "Emit light paths", options);
+    use_camera(options, camera);
     shade_splat_path_ = Kernel(device, "shade_splat_path", "Shade splat paths", options);
 }
 

@@ -12,11 +12,13 @@ namespace sundog {
 class SplatTracer {
 public:
     // paths: light subpaths an iteration.
-    SplatTracer(Device& device, const DeviceScene& scene, std::size_t paths, std::size_t pixels, PathRules rules, SamplerKind sampler);
+    SplatTracer(Device& device, const DeviceScene& scene, const Camera& camera, std::size_t paths, std::size_t pixels, PathRules rules, SamplerKind sampler);
 
     // Traces one iteration's light paths and adds what reaches the lens to the camera's radiance. Splats are
     // sorted by pixel and added in path order: the same bits every time.
     void trace(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, SamplerKey key);
+
+    void serialize(StateArchive& archive) { splats_.serialize(archive); }
 
 private:
     void trace_once(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, SamplerKey key);

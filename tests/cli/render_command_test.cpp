@@ -218,7 +218,7 @@ TEST_F(CliRender, methods_and_devices_are_listed)
 TEST_F(CliRender, help_and_version)
 {
     EXPECT_THAT(run({"--version"}).out, ::testing::StartsWith("sundog "));
-    for (const char* command : {"render", "devices", "methods", "info", "compare", "bench"}) {
+    for (const char* command : {"render", "devices", "methods", "info", "compare", "merge", "bench"}) {
         const Outcome help = run({command, "--help"});
         EXPECT_EQ(help.status, 0);
         EXPECT_THAT(help.out, HasSubstr("sundog " + std::string(command)));

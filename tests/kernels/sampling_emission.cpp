@@ -12,7 +12,7 @@ namespace
 
 using std::numbers::pi;
 
-constexpr int tests_in_file = 14;
+constexpr int tests_in_file = 18;
 constexpr uint samples = 100'000;
 
 struct Emission {
@@ -101,6 +101,25 @@ TEST_F(LightEmission, SphereEmitsOutwardsOrInwards)
         for (const Ray& ray : emission.rays) outwards.push_back(normalized(Vec3d(ray.origin) - center));
         EXPECT_TRUE(follows(grid.count(outwards), grid.expected([](Vec3d) { return 0.25 / pi; }, samples, 1), tests_in_file));
         expect_cosine_lobe(emission, [&](Vec3d origin) { return flipped ? center - origin : origin - center; });
+    }
+}
+
+TEST_F(LightEmission, CylinderEmitsOutwardsOrInwards)
+{
+    for (const bool flipped : {false, true}) {
+        const Cylinder cylinder{.start = {1, 2, 3}, .radius = 0.5f, .length = 2.0f, .flip_normals = flipped, .axis_x = {0, 1, 0}, .axis_y = {0, 0, 1}, .axis_z = {1, 0, 0}};
+        const Emission emission = emit(SceneBuilder().light(cylinder, {3, 0, 0}).scene);
+        expect_power(emission, 2.0 * pi * 0.5 * 2.0 * pi * 3.0);
+        const auto outwards = [](Vec3d origin) { return Vec3d(0, origin.y - 2.0, origin.z - 3.0); };
+        std::vector<double> counts(10 * 16, 0.0);
+        for (const Ray& ray : emission.rays) {
+            const Vec3d n = outwards(ray.origin);
+            ASSERT_NEAR(length(n), 0.5, 1e-4);
+            counts.at(static_cast<std::size_t>(std::clamp((ray.origin.x - 1.0) / 2.0, 0.0, 0.999999) * 10) * 16 +
+                      static_cast<std::size_t>((std::atan2(n.z, n.y) / (2 * pi) + 0.5) * 15.9999)) += 1.0;
+        }
+        EXPECT_TRUE(is_uniform(counts, tests_in_file));
+        expect_cosine_lobe(emission, [&](Vec3d origin) { return flipped ? -outwards(origin) : outwards(origin); });
     }
 }
 

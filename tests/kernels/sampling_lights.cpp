@@ -115,6 +115,11 @@ protected:
         const DeviceScene scene(device_, c.scene);
         const LightSamples drawn = sample(scene, c.position, c.normal);
         check_directions(c, scene, drawn);
+        check_irradiance(c, drawn);
+    }
+
+    static void check_irradiance(const Case& c, const LightSamples& drawn)
+    {
         double sum = 0.0, squares = 0.0;
         uint blocked = 0;
         for (std::size_t i = 0; i < samples; ++i) {
@@ -188,6 +193,60 @@ TEST_F(Lights, SphereFromNearFarAndInside)
     check({"inside", sphere_scene(true), {0.2f, 0.4f, 0.4f}, up, {0, 0, 1}, 2.0, 3.0 * pi});
 }
 
+// Irradiance at the origin from the cylinder about the z axis through (center, 0), from z = -half to half, of radiance 1:
+// cos cos' / d^2 integrated over the part whose normals face the origin (or, flipped, all of it, which is around it).
+double cylinder_irradiance(Vec3d normal, double center, double radius, double half, bool flipped)
+{
+    const double reach = flipped ? pi : std::acos(radius / center);
+    constexpr int steps = 2000;
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j) {
+            const double phi = reach * (2.0 * (i + 0.5) / steps - 1.0), z = half * (2.0 * (j + 0.5) / steps - 1.0);
+            const Vec3d outwards(-std::cos(phi), std::sin(phi), 0);
+            const Vec3d p = Vec3d(center, 0, z) + outwards * radius;
+            const double d2 = dot(p, p);
+            sum += std::max(0.0, dot(p, normal)) * std::abs(dot(p, outwards)) / (d2 * d2);
+        }
+    return sum * (2.0 * reach / steps) * (2.0 * half / steps) * radius;
+}
+
+TEST_F(Lights, CylinderFromOutsideAndInside)
+{
+    const auto cylinder_scene = [](float center, float radius, float half, bool flipped) {
+        const Cylinder cylinder{.start = {center, 0, -half}, .radius = radius, .length = 2.0f * half, .flip_normals = flipped};
+        return SceneBuilder().light(cylinder, {3, 3, 3}).scene;
+    };
+    const Vec3d across = normalized(Vec3d(1, 0.2, 0));
+    check({"inside", cylinder_scene(0.25f, 0.5f, 1, true), {0, 0, 0}, to_float(across), {0, 0, 1}, 2.0,
+           3.0 * cylinder_irradiance(across, 0.25, 0.5, 1, true)});
+
+    // From outside the density grows without bound towards the silhouette, where no quadrature follows it: it is compared
+    // sample by sample instead.
+    const Case outside{"outside", cylinder_scene(2, 0.5f, 1, false), {0, 0, 0}, to_float(across), {1, 0, 0}, 0.0,
+                       3.0 * cylinder_irradiance(across, 2, 0.5, 1, false)};
+    const DeviceScene scene(device_, outside.scene);
+    const LightSamples drawn = sample(scene, outside.position, outside.normal);
+    check_irradiance(outside, drawn);
+    const std::vector<float> expected = densities(scene, outside.position, {drawn.directions.begin(), drawn.directions.end()});
+    std::size_t lit = 0, missed = 0;
+    for (std::size_t i = 0; i < samples; ++i) {
+        if (drawn.pdfs[i] == 0.0f) continue;
+        ++lit;
+        missed += expected[i] == 0.0f;
+        // pdf = d^2 / (A cos'), d >= 1.5. Positions are off by 1e-6, which turns the normal and cos' by as much over it.
+        const double area = 2 * pi * 0.5 * 2, cosine = 1.5 * 1.5 / (area * drawn.pdfs[i]);
+        if (cosine > 0.02 && expected[i] > 0.0f) {
+            ASSERT_NEAR(drawn.pdfs[i], expected[i], 1e-2 * expected[i]) << "sample " << i;
+        }
+    }
+    // The part of the area whose normals face the point: deviation sqrt(p (1 - p) / n), 4.5 of them.
+    const double seen = std::acos(0.5 / 2.0) / pi;
+    EXPECT_NEAR(static_cast<double>(lit) / samples, seen, 4.5 * std::sqrt(seen * (1 - seen) / samples));
+    // Rays to the silhouette pass by it within rounding: cos' below sqrt(1e-6), a part of about as much of the area.
+    EXPECT_LT(missed, 2e-3 * static_cast<double>(lit));
+}
+
 // Seen from far off, what rounding does to shadow rays is larger than the light's own coordinates would tell.
 TEST_F(Lights, SmallLightsNearTheOriginReachFarSurfaces)
 {
@@ -198,12 +257,14 @@ TEST_F(Lights, SmallLightsNearTheOriginReachFarSurfaces)
     const TriangleMesh facing = triangle(to_float(frame.s * size), to_float(frame.t * size), to_float(frame.s * -size));
     const Scene mesh = SceneBuilder().light(facing, {1, 1, 1}).scene;
     const Scene sphere = SceneBuilder().light(Sphere{{0, 0, 0}, size, false}, {1, 1, 1}).scene;
-    for (const Scene* scene : {&disk, &mesh, &sphere}) {
+    const Scene cylinder = SceneBuilder().light(Cylinder{.start = {0, 0, -size}, .radius = size, .length = 2 * size}, {1, 1, 1}).scene;
+    for (const Scene* scene : {&disk, &mesh, &sphere, &cylinder}) {
         const DeviceScene device_scene(device_, *scene);
         for (const double distance : {10.0, 300.0, 5000.0}) {
             const LightSamples drawn = sample(device_scene, to_float(from * distance), to_float(-from));
-            EXPECT_EQ(std::accumulate(drawn.occluded.begin(), drawn.occluded.end(), 0u), 0u)
-                << "blocked by the light itself, " << distance << " away";
+            uint blocked = 0;
+            for (std::size_t i = 0; i < samples; ++i) blocked += drawn.pdfs[i] > 0.0f ? drawn.occluded[i] : 0u;
+            EXPECT_EQ(blocked, 0u) << "blocked by the light itself, " << distance << " away";
         }
     }
 }

@@ -133,8 +133,8 @@ TEST_F(FilmStage, FirstHitsAreMeans)
             ASSERT_EQ(states[path].throughput.x, 1.0f);
             // Projected back, the ray lies in its pixel.
             const Vec3d d = rays[path].direction;
-            const double x = 6.0 * (1.0 - dot(d, Vec3d(sensor.axis_x)) / dot(d, Vec3d(sensor.axis_z)) / camera.tan_half_x);
-            const double y = 3.0 * (1.0 - dot(d, Vec3d(sensor.axis_y)) / dot(d, Vec3d(sensor.axis_z)) / camera.tan_half_y);
+            const double x = 6.0 * (1.0 - dot(d, Vec3d(sensor.axis_x)) / dot(d, Vec3d(sensor.axis_z)) / camera.half_width);
+            const double y = 3.0 * (1.0 - dot(d, Vec3d(sensor.axis_y)) / dot(d, Vec3d(sensor.axis_z)) / camera.half_height);
             const std::size_t pixel = film.pixel_of_path(path);
             ASSERT_NEAR(x, static_cast<double>(pixel % 12) + 0.5, 0.50001);
             ASSERT_NEAR(y, static_cast<double>(pixel / 12) + 0.5, 0.50001);

@@ -98,7 +98,9 @@ TEST_P(SurfaceOffsets, ConvexBodiesAreLeftAndEntered)
     const auto vertex = [&](double x, double y, double z) { return to_float(center + Vec3d(x, y, z) * scale); };
     const TriangleMesh tetrahedron{.positions = {vertex(1, 1, 1), vertex(-1, -1, 1), vertex(-1, 1, -1), vertex(1, -1, -1)},
                                    .normals = {},
-                                   .triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+                                   .uvs = {},
+                                   .triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}},
+                                   .attributes = {}};
     const Sphere ball{to_float(center), static_cast<float>(scale), false};
     const PointEmitter light{{0, 0, 0}, {1, 1, 1}};
     for (const Scene& host : {SceneBuilder().shape(tetrahedron).emitter(light).scene, SceneBuilder().shape(ball).emitter(light).scene}) {
@@ -129,6 +131,38 @@ TEST_P(SurfaceOffsets, ConvexBodiesAreLeftAndEntered)
         EXPECT_GT(hits, 5000u);
         EXPECT_LT(static_cast<double>(missed_back), 1e-3 * static_cast<double>(hits));
     }
+}
+
+// A tube is convex from outside; through its ends one sees it from inside.
+TEST_P(SurfaceOffsets, TubesAreLeftFromOutside)
+{
+    const double scale = GetParam();
+    const Vec3d center(3 * scale, -2 * scale, scale);
+    const Frame3d frame({0.3, 0.5, 0.8});
+    const Cylinder tube{.start = to_float(center - frame.n * scale),
+                        .radius = static_cast<float>(scale),
+                        .length = static_cast<float>(2 * scale),
+                        .axis_x = to_float(frame.s),
+                        .axis_y = to_float(frame.t),
+                        .axis_z = to_float(frame.n)};
+    const DeviceScene scene(device_, SceneBuilder().shape(tube).emitter(PointEmitter{{0, 0, 0}, {1, 1, 1}}).scene);
+    const Continued result = follow(scene, rays_at(center, scale));
+    std::size_t outside = 0, inside = 0;
+    for (std::size_t i = 0; i < result.first.size(); ++i) {
+        if (result.first[i].primitive == NO_PRIMITIVE) continue;
+        const Vec3d normal = result.geometric_normals[i], offset = Vec3d(result.positions[i]) - center;
+        const Vec3d radial = offset - frame.n * dot(offset, frame.n);
+        ASSERT_LT(std::abs(length(radial) - scale), 1e-6 * 6.0 * scale);
+        ASSERT_LT(std::abs(dot(offset, frame.n)), scale * (1 + 1e-5));
+        ASSERT_LT(length(normal - normalized(radial)), 1e-5);
+        const bool from_outside = dot(normal, Vec3d(result.outgoing[i])) > 0.0;
+        ++(from_outside ? outside : inside);
+        if (from_outside) {
+            ASSERT_EQ(result.reflected[i].primitive, NO_PRIMITIVE) << "ray " << i << " hits the surface that it leaves";
+        }
+    }
+    EXPECT_GT(outside, 5000u);
+    EXPECT_GT(inside, 500u);
 }
 
 // Two disks close to each other: the first does not shadow itself, nor does the offset jump over the second.

@@ -1,4 +1,4 @@
-// Spheres and disks, alone and among triangles, against double precision.
+// Spheres, disks and cylinders, alone and among triangles, against double precision.
 #include "render/bench_meshes.h"
 #include "trace_fixture.h"
 
@@ -29,6 +29,19 @@ AnalyticPrimitive make_disk(Vec3 center, Vec3 axis_u, Vec3 axis_v)
     return disk;
 }
 
+AnalyticPrimitive make_cylinder(Vec3 start, Vec3 axis, float length, float radius)
+{
+    AnalyticPrimitive cylinder{};
+    cylinder.center = start;
+    cylinder.radius = radius;
+    cylinder.length = length;
+    cylinder.normal = normalize(axis);
+    cylinder.axis_u = normalize(cross(cylinder.normal, std::abs(cylinder.normal.x) > 0.5f ? Vec3{0, 1, 0} : Vec3{1, 0, 0}));
+    cylinder.axis_v = cross(cylinder.normal, cylinder.axis_u);
+    cylinder.kind = ANALYTIC_CYLINDER;
+    return cylinder;
+}
+
 // What a double-precision test finds. margin: how close the ray passes to the primitive's silhouette, relative to its
 // size. cosine: of the angle between ray and normal, by which the rounding of a disk's normal is divided.
 struct Reference {
@@ -37,9 +50,30 @@ struct Reference {
     double cosine = 1.0;
 };
 
+// Both crossings of the endless cylinder, then whether they lie between the ends.
+Reference intersect_cylinder(const AnalyticPrimitive& cylinder, Point o, Point d)
+{
+    const Point axis(cylinder.normal);
+    const double r = cylinder.radius, end = cylinder.length;
+    const Point across_o = o - dot(o, axis) * axis, across_d = d - dot(d, axis) * axis;
+    const double a = dot(across_d, across_d), b = dot(across_o, across_d), c = dot(across_o, across_o) - r * r;
+    const double discriminant = b * b - a * c;
+    Reference found{infinite, std::abs(discriminant) / (a * r * r)};
+    if (discriminant < 0.0) return found;
+    for (const double t : {(-b - std::sqrt(discriminant)) / a, (-b + std::sqrt(discriminant)) / a}) {
+        const double height = dot(o + t * d, axis);
+        if (t > 0.0) found.margin = std::min(found.margin, std::min(std::abs(height), std::abs(height - end)) / r);
+        if (t > 0.0 && height >= 0.0 && height <= end) found.t = std::min(found.t, t);
+    }
+    // Along the axis t goes as the distance across over the sine of the angle to the axis.
+    found.cosine = std::sqrt(a) / length(d);
+    return found;
+}
+
 Reference intersect(const AnalyticPrimitive& primitive, const Ray& ray)
 {
     const Point o = Point(ray.origin) - Point(primitive.center), d(ray.direction);
+    if (primitive.kind == ANALYTIC_CYLINDER) return intersect_cylinder(primitive, o, d);
     if (primitive.kind == ANALYTIC_SPHERE) {
         const double a = dot(d, d), b = dot(o, d) / a, r = primitive.radius;
         const Point closest = o - b * d;
@@ -65,7 +99,9 @@ std::vector<AnalyticPrimitive> random_primitives(int count)
     for (int i = 0; i < count; i++) {
         const Vec3 center = random.in_cube(1.0f);
         const float size = 0.3f * std::pow(1e-3f, random.uniform());
-        if (i % 2)
+        if (i % 4 == 3)
+            primitives.push_back(make_cylinder(center, random.direction(), size * random.between(0.5f, 3.0f), size));
+        else if (i % 2)
             primitives.push_back(make_sphere(center, size));
         else
             primitives.push_back(make_disk(center, size * random.direction(), size * random.direction())); // sheared ellipses
@@ -166,6 +202,28 @@ TEST_F(TraceAnalytic, FromInsideAndFromTheSurface)
             ASSERT_EQ(hits[i].primitive, ANALYTIC_BIT);
             EXPECT_NEAR(length(Point(rays[i].origin) + hits[i].t * Point(rays[i].direction)), radius, 1e-6 * radius);
             EXPECT_GT(hits[i].t, 0.0f);
+        }
+    }
+}
+
+// Open at both ends, hit from outside, from inside and through the ends.
+TEST_F(TraceAnalytic, CylindersAreOpen)
+{
+    load({}, {make_cylinder({1, 2, 0}, {0, 0, 1}, 2.0f, 0.5f)});
+    const std::vector<Hit> hits = closest({{{3, 2, 1}, infinite, {-1, 0, 0}, 0},        // from outside
+                                           {{1, 2, 1}, infinite, {0, 1, 0}, 0},         // from the axis
+                                           {{1, 2, 5}, infinite, {0, 0, -1}, 0},        // along the axis
+                                           {{1.2f, 2, 3}, infinite, {0, 0, -2}, 0},     // beside it
+                                           {{3, 2, 2.01f}, infinite, {-1, 0, 0}, 0},    // above the end
+                                           {{3, 2, -0.01f}, infinite, {-1, 0, 0}, 0},   // below the start
+                                           {{1, 1, 2.6f}, infinite, {0, 1, -1}, 0},     // in through the end, to the far side
+                                           {{1, 2, 1.5f}, infinite, {0, 0.2f, 1}, 0}}); // out through the end
+    const float expected[] = {1.5f, 0.5f, 0, 0, 0, 0, 1.5f, 0};
+    for (std::size_t i = 0; i < hits.size(); i++) {
+        SCOPED_TRACE(i);
+        EXPECT_EQ(hits[i].primitive, expected[i] > 0 ? ANALYTIC_BIT : NO_PRIMITIVE);
+        if (expected[i] > 0) {
+            EXPECT_NEAR(hits[i].t, expected[i], 1e-6f);
         }
     }
 }

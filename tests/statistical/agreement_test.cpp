@@ -89,6 +89,41 @@ TEST(Agreement, GlassAndMirrorSpheres)
     expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24)}, edge_bias);
 }
 
+// Broad reflections are asked for photons; narrow ones are followed, and asked only for what no followed path finds.
+TEST(Agreement, RoughMetals)
+{
+    Scene scene = cornell_box(size);
+    const Vec3 eta{0.2f, 0.9f, 1.1f}, k{3.9f, 2.5f, 2.1f};
+    const uint broad = add_bsdf(scene, ConductorBsdf{eta, k, {}, Roughness{false, 0.4f, 0.25f}});
+    const uint narrow = add_bsdf(scene, ConductorBsdf{eta, k, {}, Roughness{true, 0.1f, 0.1f}});
+    scene.shapes.push_back(make_sphere({.45f, -.6f, .3f}, .4f, broad));
+    scene.shapes.push_back(make_sphere({-.45f, -.6f, -.3f}, .4f, narrow));
+    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("pppm", 48, "direct", "photons")},
+                     edge_bias);
+}
+
+TEST(Agreement, GroundGlass)
+{
+    Scene scene = cornell_box(size);
+    const uint glass = add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {}, {}, Roughness{false, 0.5f, 0.5f}});
+    scene.shapes.push_back(make_sphere({0, -.5f, .2f}, .45f, glass));
+    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48)}, edge_bias);
+}
+
+// A point light, by way of a mirror in front of the box that the camera does not see, on narrow metal: neither can the
+// light be hit nor the mirror be connected, so only light paths and photons find it.
+TEST(Agreement, MirroredPointLightOnNarrowMetal)
+{
+    Scene scene = cornell_box(size);
+    scene.shapes.pop_back(); // the box's own light
+    scene.emitters.push_back({{}, PointEmitter{{.1f, .6f, 2.2f}, {6, 6, 6}}});
+    const uint mirror = add_bsdf(scene, ConductorBsdf{});
+    const uint narrow = add_bsdf(scene, ConductorBsdf{{0.2f, 0.9f, 1.1f}, {3.9f, 2.5f, 2.1f}, {}, Roughness{false, 0.12f, 0.12f}});
+    scene.shapes.push_back(make_quad({-1, -1, 1.2f}, {-1, -1, 3}, {1, -1, 3}, {1, -1, 1.2f}, mirror));
+    scene.shapes.push_back(make_sphere({0, -.35f, .2f}, .6f, narrow));
+    expect_agreement(scene, {request("ptracer", 96), request("pppm", 64), request("sppm", 64), request("pppm", 64, "direct", "photons")}, edge_bias);
+}
+
 TEST(Agreement, ThinPaneAndDisk)
 {
     Scene scene = cornell_box(size);
@@ -123,6 +158,57 @@ TEST(Agreement, EveryEmitter)
     scene.emitters.push_back({{}, DirectionalEmitter{normalize(Vec3{.2f, -.3f, -1}), {.5f, .5f, .5f}}});
     scene.emitters.push_back({{}, ConstantEmitter{{.2f, .2f, .2f}}});
     expect_agreement(scene, {request("path", 128), request("ptracer", 32), request("pppm", 32), request("sppm", 32)}, edge_bias);
+}
+
+// Into the box from its open side, off centre so that a mirrored or shifted image would show in the windows.
+Scene orthographic_box()
+{
+    Scene scene = cornell_box(size);
+    scene.sensor.projection = Projection::orthographic;
+    scene.sensor.position = {.15f, -.1f, 3.9f};
+    scene.sensor.extent_x = .8f;
+    scene.sensor.extent_y = .7f;
+    return scene;
+}
+
+TEST(Agreement, Orthographic)
+{
+    expect_agreement(orthographic_box(), {request("path", 64), request("ptracer", 16), request("pppm", 16)}, edge_bias);
+}
+
+TEST(Agreement, Telecentric)
+{
+    Scene scene = orthographic_box();
+    scene.sensor.aperture_radius = .15f;
+    scene.sensor.focus_distance = 3.5f;
+    expect_agreement(scene, {request("path", 64), request("ptracer", 16)}, edge_bias);
+}
+
+TEST(Agreement, PrincipalPointAndCrop)
+{
+    Scene scene = cornell_box(size);
+    scene.film.width = 48;
+    scene.film.height = 40;
+    scene.film.crop_x = 12;
+    scene.film.crop_y = 6;
+    scene.sensor.principal_offset_x = .05f;
+    scene.sensor.principal_offset_y = -.08f;
+    expect_agreement(scene, {request("path", 64), request("ptracer", 16)}, edge_bias);
+    scene.sensor.aperture_radius = .1f;
+    scene.sensor.focus_distance = 3.9f;
+    expect_agreement(scene, {request("path", 64), request("ptracer", 16)}, edge_bias);
+}
+
+// What is nearer than the near plane neither shows nor hides: a black card before the camera changes nothing.
+TEST(Agreement, NearPlaneBeyondACard)
+{
+    for (const bool orthographic : {false, true}) {
+        Scene scene = orthographic ? orthographic_box() : cornell_box(size);
+        const uint black = add_bsdf(scene, DiffuseBsdf{{0, 0, 0}});
+        scene.shapes.push_back(make_quad({-.3f, -1, 3.5f}, {.3f, -1, 3.5f}, {.3f, 1, 3.5f}, {-.3f, 1, 3.5f}, black));
+        scene.sensor.near_clip = .5f;
+        expect_agreement(scene, {request("path", 64), request("ptracer", 16)}, edge_bias);
+    }
 }
 
 TEST(Agreement, ThinLensAndWideFilter)

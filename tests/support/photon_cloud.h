@@ -36,7 +36,7 @@ inline Vec3d unpacked_normal(uint packed)
 
 inline Photon make_test_photon(Vec3 position, Vec3 flux, Vec3d normal = {0, 0, 1}, uint depth = 2)
 {
-    return {position, 0, flux, packed_normal(normal) | (depth << 24)};
+    return {position, 0, flux, packed_normal(normal) | (depth << PHOTON_DEPTH_SHIFT)};
 }
 
 inline GatherQuery make_test_query(Vec3 position, float radius, Vec3 normal = {0, 0, 1}, uint max_depth = UNBOUNDED_DEPTH)
@@ -58,7 +58,7 @@ inline BruteForce brute_force(const std::vector<Photon>& photons, const GatherQu
     for (const Photon& photon : photons) {
         const double t = length(Vec3d(photon.position) - Vec3d(query.position)) / query.radius;
         const double cosine = dot(unpacked_normal(photon.normal_depth), Vec3d(query.normal));
-        if (t > 1.0 + margin || cosine < 0.7 - 1e-4 || photon.normal_depth >> 24 > query.max_photon_depth) continue;
+        if (t > 1.0 + margin || cosine < 0.7 - 1e-4 || photon.normal_depth >> PHOTON_DEPTH_SHIFT > query.max_photon_depth) continue;
         const bool certain = t < 1.0 - margin && cosine > 0.7 + 1e-4;
         result.most_count += 1.0;
         result.most_flux += photon.flux.x;
@@ -92,7 +92,7 @@ public:
 
     std::vector<GatherSum> gather(PhotonGather& gather, const std::vector<GatherQuery>& queries)
     {
-        gather.gather(map, Buffer<GatherQuery>(*device_, queries, "queries"), queries.size());
+        gather.gather(map, Buffer<GatherQuery>(*device_, queries, "queries"), Buffer<LobeRecord>(*device_, 1, "query lobes"), queries.size());
         return gather.sums.download(0, queries.size());
     }
 

@@ -74,6 +74,48 @@ TEST(FlatSceneShapes, NormalsStayBesideTheirPositions)
     EXPECT_TRUE(flatten_scene(SceneBuilder().shape(plain(0)).emitter(lamp).scene).normals.empty());
 }
 
+TEST(FlatSceneShapes, CylindersDisksAndSpheresKeepTheirAxes)
+{
+    const Cylinder cylinder{.start = {1, 2, 3}, .radius = 0.5f, .length = 4, .flip_normals = true, .axis_x = {0, 1, 0}, .axis_y = {0, 0, 1}, .axis_z = {1, 0, 0}};
+    Sphere sphere{{0, 0, 0}, 1.0f};
+    sphere.axis_x = {0, 0, 1};
+    sphere.axis_z = {-1, 0, 0};
+    const FlatScene flat = flatten_scene(SceneBuilder()
+                                             .light(cylinder, {1, 1, 1})
+                                             .shape(Disk{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, true})
+                                             .shape(sphere)
+                                             .scene);
+    const AnalyticPrimitive& tube = flat.analytics.at(0);
+    EXPECT_EQ(tube.kind, ANALYTIC_CYLINDER);
+    EXPECT_EQ(tube.center, (Vec3{1, 2, 3}));
+    EXPECT_EQ(tube.length, 4.0f);
+    EXPECT_EQ(tube.radius, 0.5f);
+    EXPECT_EQ(tube.normal, (Vec3{1, 0, 0}));
+    EXPECT_EQ(tube.axis_u, (Vec3{0, 1, 0}));
+    EXPECT_EQ(flat.shapes[0].flags, SHAPE_FLIP_NORMALS);
+    EXPECT_EQ(flat.lights.at(0).type, LIGHT_CYLINDER);
+    EXPECT_NEAR(flat.lights[0].area, 2 * std::numbers::pi * 0.5 * 4, 1e-5);
+    EXPECT_EQ(flat.analytics.at(1).axis_u, (Vec3{2, 0, 0})) << "where texture coordinates begin";
+    EXPECT_EQ(flat.analytics[1].normal, (Vec3{0, 0, -1}));
+    EXPECT_EQ(flat.analytics.at(2).axis_u, (Vec3{0, 0, 1}));
+    EXPECT_EQ(flat.analytics[2].normal, (Vec3{-1, 0, 0}));
+}
+
+TEST(FlatSceneShapes, CylinderBoundsAreTight)
+{
+    const Vec3 axis = normalize(Vec3{1, 2, 2});
+    const Vec3 x = normalize(Vec3{2, -1, 0});
+    Scene scene = SceneBuilder().shape(Cylinder{.start = {1, 1, 1}, .radius = 0.5f, .length = 3, .axis_x = x, .axis_y = cross(axis, x), .axis_z = axis}).scene;
+    const Bounds bounds = scene.bounds();
+    // A circle of radius r reaches r sqrt(1 - a^2) along an axis that is at cosine a to its normal.
+    const float a[] = {1.0f / 3, 2.0f / 3, 2.0f / 3};
+    for (int k = 0; k < 3; ++k) {
+        const float reach = 0.5f * std::sqrt(1 - a[k] * a[k]);
+        EXPECT_NEAR(component(bounds.lower, k), 1 - reach, 1e-6f);
+        EXPECT_NEAR(component(bounds.upper, k), 1 + 3 * a[k] + reach, 1e-6f);
+    }
+}
+
 TEST(FlatSceneShapes, BoundingSphereHoldsEverything)
 {
     const FlatScene flat = flatten_scene(
@@ -93,17 +135,17 @@ TEST(FlatSceneBsdfs, RecordsKeepTheirModels)
     builder.shape(Sphere{}).emitter(lamp);
     const std::vector<Bsdf> bsdfs = flatten_scene(builder.scene).bsdfs;
     EXPECT_EQ(bsdfs[red].type, BSDF_DIFFUSE);
-    EXPECT_EQ(bsdfs[red].flags, 0u);
+    EXPECT_EQ(bsdfs[red].flags, BSDF_HAS_SMOOTH | BSDF_HAS_BROAD | BSDF_BLACK_BACK);
     EXPECT_EQ(bsdfs[glass].type, BSDF_DIELECTRIC);
     EXPECT_FLOAT_EQ(bsdfs[glass].eta, 1.25f);
-    EXPECT_EQ(bsdfs[glass].transmittance.x, 0.5f);
+    EXPECT_EQ(bsdfs[glass].transmittance.value.x, 0.5f);
     EXPECT_EQ(bsdfs[pane].type, BSDF_THIN_DIELECTRIC);
     EXPECT_EQ(bsdfs[metal].type, BSDF_CONDUCTOR);
     EXPECT_EQ(bsdfs[metal].k_rgb.y, 2.0f);
-    EXPECT_EQ(bsdfs[metal].reflectance.x, 0.9f);
+    EXPECT_EQ(bsdfs[metal].specular.value.x, 0.9f);
     EXPECT_EQ(bsdfs[both].type, BSDF_DIFFUSE) << "the front's record";
-    EXPECT_EQ(bsdfs[both].reflectance.x, 0.7f);
-    EXPECT_EQ(bsdfs[both].flags, BSDF_TWO_SIDED);
+    EXPECT_EQ(bsdfs[both].reflectance.value.x, 0.7f);
+    EXPECT_EQ(bsdfs[both].flags, BSDF_TWO_SIDED | BSDF_HAS_SMOOTH | BSDF_HAS_BROAD);
     EXPECT_EQ(bsdfs[both].back, metal);
 }
 
@@ -116,8 +158,28 @@ TEST(FlatSceneBsdfs, TwoSidedMayNameLaterOnes)
     builder.bsdf(DiffuseBsdf{{0.75f, 0, 0}});
     builder.shape(Sphere{}).emitter(lamp);
     const std::vector<Bsdf> bsdfs = flatten_scene(builder.scene).bsdfs;
-    EXPECT_EQ(bsdfs[both].reflectance.x, 0.25f);
-    EXPECT_EQ(bsdfs[bsdfs[both].back].reflectance.x, 0.75f);
+    EXPECT_EQ(bsdfs[both].reflectance.value.x, 0.25f);
+    EXPECT_EQ(bsdfs[bsdfs[both].back].reflectance.value.x, 0.75f);
+}
+
+TEST(FlatSceneCamera, OrthographicExtentsAndPrincipalPoint)
+{
+    Sensor sensor;
+    sensor.projection = Projection::orthographic;
+    sensor.extent_x = 4.0f;
+    sensor.extent_y = 3.0f;
+    sensor.principal_offset_x = 0.25f;
+    sensor.principal_offset_y = -0.5f;
+    Film film;
+    film.width = 200;
+    film.height = 50;
+    const Camera camera = make_camera(sensor, film);
+    EXPECT_EQ(camera.kind, CAMERA_ORTHOGRAPHIC);
+    EXPECT_EQ(camera.half_width, 4.0f);
+    EXPECT_EQ(camera.half_height, 0.75f); // of square pixels, a quarter as high as wide, were extents the same
+    EXPECT_EQ(camera.shift_x, -2.0f); // a quarter of the width of 8
+    EXPECT_EQ(camera.shift_y, 0.75f); // half the height of 1.5
+    EXPECT_EQ(make_camera(Sensor(), film).kind, CAMERA_PERSPECTIVE);
 }
 
 TEST(FlatSceneCamera, TangentsReferToTheFullFilm)
@@ -137,8 +199,8 @@ TEST(FlatSceneCamera, TangentsReferToTheFullFilm)
     film.crop_width = 30;
     film.crop_height = 40;
     const Camera camera = make_camera(sensor, film);
-    EXPECT_NEAR(camera.tan_half_x, 1.0f, 1e-6f);
-    EXPECT_NEAR(camera.tan_half_y, 0.25f, 1e-6f);
+    EXPECT_NEAR(camera.half_width, 1.0f, 1e-6f);
+    EXPECT_NEAR(camera.half_height, 0.25f, 1e-6f);
     EXPECT_EQ(camera.aperture_radius, 0.25f);
     EXPECT_EQ(camera.focus_distance, 3.0f);
     EXPECT_EQ(camera.near_clip, 0.5f);

@@ -105,7 +105,7 @@ const std::vector<Broken> broken_scenes = {
     {"ColdBlackBody", 2, "temperature", scene("<emitter type=\"point\"><blackbody name=\"intensity\" temperature=\"-3\"/></emitter>")},
     {"UnknownAttribute", 3, "'vlaue'", bsdf("<float name=\"radius\" vlaue=\"1\"/>")},
     {"NamelessValue", 3, "attribute name", bsdf("<float value=\"1\"/>")},
-    {"Texture", 3, "texture plugin 'bitmap'", bsdf("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\"/></bsdf>")},
+    {"Texture", 3, "texture plugin 'wood'", bsdf("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"wood\"/></bsdf>")},
     {"UnknownSpectrum", 2, "spectrum plugin 'rainbow'",
      scene("<emitter type=\"constant\"><spectrum name=\"radiance\" type=\"rainbow\"/></emitter>")},
     // Transforms
@@ -120,6 +120,11 @@ const std::vector<Broken> broken_scenes = {
     {"OverflowingMesh", 2, "not finite", move("<translate x=\"1e39\"/>")},
     // Plugins and what they refuse
     {"UnknownShape", 2, "shape plugin 'teapot'", scene("<shape type=\"teapot\"/>")},
+    {"HeightField", 2, "heightfield' is not supported: convert it to a mesh", scene("<shape type=\"heightfield\"/>")},
+    {"Hair", 3, "hair' is not supported: make tubes", scene("\n<shape type=\"hair\"/>")},
+    {"Curve", 2, "make tubes of the curves", scene("<shape type=\"bsplinecurve\"/>")},
+    {"SignedDistances", 2, "extract the surface", scene("<shape type=\"sdfgrid\"/>")},
+    {"Instance", 2, "a shape of its own", scene("<shape type=\"instance\"/>")},
     {"ShapeWithoutType", 2, "attribute type", scene("<shape/>")},
     {"UnknownBsdf", 3, "bsdf plugin 'roughplastic' is not supported; supported are diffuse", bsdf("<bsdf type=\"roughplastic\"/>")},
     {"TwoBsdfs", 4, "only one <bsdf>", bsdf("<bsdf type=\"diffuse\"/>\n<bsdf type=\"diffuse\"/>")},
@@ -127,8 +132,16 @@ const std::vector<Broken> broken_scenes = {
     {"LooseAreaEmitter", 2, "inside the <shape>", scene("<emitter type=\"area\"/>")},
     {"PointInShape", 3, "only area emitters", bsdf("<emitter type=\"point\"/>")},
     {"Medium", 3, "medium plugin 'homogeneous'", bsdf("<medium name=\"interior\" type=\"homogeneous\"/>")},
-    {"UnknownSensor", 1, "sensor plugin 'orthographic'", sensor("", "orthographic")},
-    {"UnknownFilm", 2, "film plugin 'specfilm'", sensor("<film type=\"specfilm\"/>")},
+    {"UnknownSensor", 1, "sensor plugin 'pinhole' is not supported; supported are perspective", sensor("", "pinhole")},
+    {"DistantSensor", 1, "use orthographic", sensor("", "distant")},
+    {"RadianceMeter", 1, "film of one pixel", sensor("", "radiancemeter")},
+    {"SphericalSensor", 1, "six axes", sensor("", "spherical")},
+    {"BatchOfSensors", 1, "scene file of its own", sensor("<sensor type=\"perspective\"/>", "batch")},
+    {"ShearedOrthographic", 2, "shear",
+     sensor("<transform name=\"to_world\"><rotate z=\"1\" angle=\"30\"/><scale x=\"2\"/></transform>", "orthographic")},
+    {"TinyOrthographic", 2, "out of range", sensor("<transform name=\"to_world\"><scale value=\"1e-42\"/></transform>", "orthographic")},
+    {"UnknownFilm", 2, "film plugin 'polaroid' is not supported; supported are hdrfilm", sensor("<film type=\"polaroid\"/>")},
+    {"SpectralFilm", 2, "use hdrfilm", sensor("<film type=\"specfilm\"/>")},
     {"UnknownFilter", 3, "rfilter plugin 'lanczos'", film("<rfilter type=\"lanczos\"/>")},
     {"UnknownMetal", 3, "'Kryptonite'", bsdf("<bsdf type=\"conductor\"><string name=\"material\" value=\"Kryptonite\"/></bsdf>")},
     {"UnknownGlass", 3, "'butter'", bsdf("<bsdf type=\"dielectric\"><string name=\"int_ior\" value=\"butter\"/></bsdf>")},
@@ -138,7 +151,7 @@ const std::vector<Broken> broken_scenes = {
      bsdf("<bsdf type=\"conductor\"><string name=\"material\" value=\"Au\"/><float name=\"eta\" value=\"1\"/></bsdf>")},
     {"EmptyTwoSided", 3, "twosided", bsdf("<bsdf type=\"twosided\"/>")},
     {"TwoSidedGlass", 3, "transmits", bsdf("<bsdf type=\"twosided\"><bsdf type=\"dielectric\"/></bsdf>")},
-    {"TwoSidedTwice", 3, "another", bsdf("<bsdf type=\"twosided\" id=\"t\"><ref id=\"t\"/></bsdf>")},
+    {"TwoSidedTwice", 3, "contains itself", bsdf("<bsdf type=\"twosided\" id=\"t\"><ref id=\"t\"/></bsdf>")},
     {"HideEmitters", 2, "hide_emitters", scene("<integrator type=\"path\"><boolean name=\"hide_emitters\" value=\"true\"/></integrator>")},
     {"TwoIntegrators", 3, "only one <integrator>", scene("<integrator type=\"path\"/>\n<integrator type=\"sppm\"/>")},
     {"LooseFilm", 2, "film plugin 'hdrfilm'", scene("<film type=\"hdrfilm\"/>")},
@@ -177,6 +190,12 @@ const std::vector<Broken> broken_scenes = {
     {"DarkLight", 0, "no light",
      "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><shape type=\"cube\"><emitter type=\"area\"><rgb name=\"radiance\" "
      "value=\"0\"/></emitter></shape></scene>"},
+    {"CylinderWithoutLength", 2, "two different end points", scene("<shape type=\"cylinder\"><point name=\"p1\" x=\"0\"/></shape>")},
+    {"EllipticCylinder", 3, "scale evenly across the axis",
+     scene("<shape type=\"cylinder\">\n<transform name=\"to_world\"><scale x=\"2\"/></transform></shape>")},
+    {"ObliqueCylinder", 3, "use a mesh",
+     scene("<shape type=\"cylinder\">\n<transform name=\"to_world\"><matrix value=\"1 0 1 0 0 1 0 0 0 0 1 0 0 0 0 1\"/></transform></shape>")},
+    {"CylinderRadius", 2, "'radius'", scene("<shape type=\"cylinder\"><float name=\"radius\" value=\"0\"/></shape>")},
     // Meshes
     {"MissingMesh", 3, "tried", scene("<shape type=\"obj\">\n<string name=\"filename\" value=\"nowhere.obj\"/></shape>")},
     {"MeshWithoutName", 2, "filename", scene("<shape type=\"ply\"/>")},
@@ -239,7 +258,6 @@ const std::vector<BrokenFile> broken_files = {
      "<scene version=\"3.0.0\">\n<shape type=\"sphere\">\n<float name=\"radius\" value=\"wide\"/></shape></scene>"},
     {"IncludeCycle", "m.xml", "m.xml:1:", "cyclic <include>: scene.xml includes m.xml includes scene.xml",
      "<include filename=\"scene.xml\"/>"},
-#ifndef SUNDOG_MINIMAL
     {"PlyNotPly", "m.ply", "m.ply:1:", "not a PLY file", "solid stl\n"},
     {"PlyEmpty", "m.ply", "m.ply:1:", "truncated", ""},
     {"PlyFormat", "m.ply", "m.ply:2:", "format 'morse'", "ply\nformat morse 1.0\n"},
@@ -250,7 +268,6 @@ const std::vector<BrokenFile> broken_files = {
     {"PlyHugeCount", "m.ply", "m.ply:3:", "2^31", "ply\nformat ascii 1.0\nelement vertex 99999999999\n"},
     {"PlyNegativeList", "m.ply", "m.ply:13:", "list of -3",
      ply_vertices + "element face 1\nproperty list char int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n"},
-#endif
 };
 
 class BrokenSceneFile : public ::testing::TestWithParam<BrokenFile>

@@ -103,7 +103,6 @@ TEST(ImportRobustness, RandomMeshBytes)
     EXPECT_GT(loaded, 0);
 }
 
-#ifndef SUNDOG_MINIMAL
 TEST(ImportRobustness, RandomPlyBytes)
 {
     const SceneFolder folder;
@@ -126,6 +125,5 @@ TEST(ImportRobustness, RandomPlyBytes)
     }
     EXPECT_GT(loaded, 0);
 }
-#endif
 
 } // namespace

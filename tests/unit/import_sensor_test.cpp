@@ -10,9 +10,9 @@ using namespace sundog;
 using sundog::testing::expect_near;
 using sundog::testing::SceneFolder;
 
-LoadedScene load_sensor(const std::string& inside, const std::string& type = "perspective")
+LoadedScene load_sensor(const std::string& inside, const std::string& type = "perspective", const std::string& version = "3.0.0")
 {
-    return SceneFolder().load("<scene version=\"3.0.0\"><sensor type=\"" + type + "\">" + inside +
+    return SceneFolder().load("<scene version=\"" + version + "\"><sensor type=\"" + type + "\">" + inside +
                               "</sensor><shape type=\"rectangle\"><emitter type=\"area\"/></shape></scene>");
 }
 
@@ -120,6 +120,60 @@ TEST(ImportSensor, Filters)
     EXPECT_FLOAT_EQ(mitchell.c, 0.4f);
     EXPECT_FLOAT_EQ(mitchell.radius, 2.0f);
     EXPECT_FLOAT_EQ(filter("<rfilter type=\"catmullrom\"/>").c, 0.5f);
+}
+
+TEST(ImportSensor, OrthographicFilmsAreSizedByTheScale)
+{
+    const Sensor plain = load_sensor("", "orthographic").scene.sensor;
+    EXPECT_EQ(plain.projection, Projection::orthographic);
+    EXPECT_EQ(plain.extent_x, 1.0f);
+    EXPECT_EQ(plain.extent_y, 1.0f);
+    EXPECT_EQ(plain.aperture_radius, 0.0f);
+    const std::string inside = "<transform name=\"to_world\"><scale x=\"3\" y=\"2\" z=\"4\"/><lookat origin=\"1, 2, 3\" target=\"4, 2, 7\" "
+                               "up=\"0, 1, 0\"/></transform><float name=\"near_clip\" value=\"0.5\"/><float name=\"far_clip\" value=\"10\"/>";
+    const auto scaled = load_sensor(inside, "orthographic");
+    const Sensor& sensor = scaled.scene.sensor;
+    EXPECT_TRUE(scaled.warnings.empty()) << "here the scale has an effect";
+    EXPECT_NEAR(sensor.extent_x, 3.0f, 1e-6f);
+    EXPECT_NEAR(sensor.extent_y, 2.0f, 1e-6f);
+    expect_near(sensor.position, {1, 2, 3}, 0);
+    expect_near(sensor.axis_z, {0.6f, 0, 0.8f}, 1e-6f);
+    expect_near(sensor.axis_y, {0, 1, 0}, 1e-6f);
+    EXPECT_NEAR(length(sensor.axis_x), 1.0f, 1e-6f);
+    // Mitsuba 3.9: rays start at to_world (., ., near_clip) and are far_clip - near_clip long. 0.6: both are distances.
+    EXPECT_NEAR(sensor.near_clip, 2.0f, 1e-6f);
+    EXPECT_NEAR(sensor.far_clip, 11.5f, 1e-5f);
+    const Sensor old = load_sensor(inside, "orthographic", "0.6.0").scene.sensor;
+    EXPECT_EQ(old.near_clip, 0.5f);
+    EXPECT_EQ(old.far_clip, 10.0f);
+}
+
+TEST(ImportSensor, TelecentricIsOrthographicWithALens)
+{
+    const Sensor sensor =
+        load_sensor("<float name=\"apertureRadius\" value=\"0.2\"/><float name=\"focusDistance\" value=\"6\"/>", "telecentric", "0.6.0").scene.sensor;
+    EXPECT_EQ(sensor.projection, Projection::orthographic);
+    EXPECT_FLOAT_EQ(sensor.aperture_radius, 0.2f);
+    EXPECT_FLOAT_EQ(sensor.focus_distance, 6.0f);
+}
+
+TEST(ImportSensor, PrincipalPointOffsetsAreFractionsOfTheFilm)
+{
+    const auto loaded = load_sensor("<float name=\"principal_point_offset_x\" value=\"0.1\"/><float name=\"principal_point_offset_y\" value=\"-0.2\"/>");
+    EXPECT_FLOAT_EQ(loaded.scene.sensor.principal_offset_x, 0.1f);
+    EXPECT_FLOAT_EQ(loaded.scene.sensor.principal_offset_y, -0.2f);
+    EXPECT_TRUE(loaded.warnings.empty());
+}
+
+TEST(ImportSensor, FilmsOfOtherFilesAreTakenAsHdrfilm)
+{
+    for (const std::string type : {"ldrfilm", "tiledhdrfilm", "mfilm"}) {
+        const auto loaded = load_sensor("<film type=\"" + type + "\"><integer name=\"cropOffsetX\" value=\"0\"/></film>", "perspective", "0.6.0");
+        ASSERT_EQ(loaded.warnings.size(), 1u) << type;
+        EXPECT_THAT(loaded.warnings[0], ::testing::HasSubstr("film '" + type + "' is taken as hdrfilm"));
+        EXPECT_EQ(loaded.scene.film.width, type == "mfilm" ? 1 : 768);
+        EXPECT_EQ(loaded.scene.film.crop_height, type == "mfilm" ? 1 : 576);
+    }
 }
 
 TEST(ImportSensor, ThinLensNeedsNoFocusDistance)

@@ -41,6 +41,21 @@ TEST(ProgressReport, modes_have_names)
     EXPECT_TRUE(parse_progress_mode("auto"));
 }
 
+TEST(ProgressReport, a_resumed_render_is_as_fast_as_its_own_iterations)
+{
+    std::ostringstream out;
+    Progress progress(ProgressMode::json, {100, std::nullopt, 60}, out);
+    progress.update(60, 0.0);
+    progress.update(80, 10.0);
+    const auto lines = lines_of(out.str());
+    const auto first = nlohmann::json::parse(lines.front()), last = nlohmann::json::parse(lines.back());
+    EXPECT_EQ(first["fraction"], 0.6);
+    EXPECT_TRUE(first["iterations_per_second"].is_null());
+    EXPECT_EQ(last["fraction"], 0.8);
+    EXPECT_EQ(last["iterations_per_second"], 2.0);
+    EXPECT_EQ(last["seconds_left"], 10.0);
+}
+
 TEST(ProgressReport, bar_redraws_one_line_within_the_terminal)
 {
     std::ostringstream out;

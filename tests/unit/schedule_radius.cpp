@@ -87,9 +87,14 @@ TEST(PixelFootprint, IsAPixelsWidthAtTheMiddleOfTheScene)
 {
     Camera camera{};
     camera.position = {0, 0, 5};
-    camera.tan_half_x = 0.5f;
+    camera.half_width = 0.5f;
     camera.film_width = 100;
     EXPECT_NEAR(pixel_footprint(camera, {{-1, -1, -1}, {1, 1, 1}}), 0.05f, 1e-6f);
+    camera.kind = CAMERA_ORTHOGRAPHIC; // whatever the distance: the side of a square as large as a pixel
+    camera.half_height = 0.5f;
+    camera.film_height = 25;
+    EXPECT_NEAR(pixel_footprint(camera, {{-1, -1, -1}, {1, 1, 1}}), 0.02f, 1e-6f);
+    camera.kind = CAMERA_PERSPECTIVE;
     camera.position = {0, 0, 0}; // inside: half the bounding sphere's radius away
     EXPECT_NEAR(pixel_footprint(camera, {{-1, -1, -1}, {1, 1, 1}}), 0.005f * std::sqrt(3.0f), 1e-6f);
 }

@@ -1,0 +1,66 @@
+// The file that a render is continued from. Layout, all numbers as the machine writes them (little endian):
+//
+//   8 bytes   "\x89SUNDOG\n"
+//   uint32    version of this layout, checkpoint_layout
+//   uint32    0x01020304, so that a machine of the other byte order sees it
+//   sections, each:
+//     uint32  bytes of the name
+//     uint32  0
+//     uint64  bytes of the data
+//     name, data
+//     uint64  low and uint64 high half of Hash().append_field(name).append_field(data)
+//
+// The section "end", without data, is the last: a file without it was cut off. The first one, "render", is JSON that
+// says which render this is (render/checkpoint.h); the others are numbers and device buffers as they lie in memory.
+#pragma once
+
+#include "base/atomic_file.h"
+#include "base/state_archive.h"
+
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+namespace sundog {
+
+constexpr std::uint32_t checkpoint_layout = 1;
+
+// Writes beside FILE; only commit() puts it there. Throws FileError.
+class CheckpointWriter final : public StateArchive {
+public:
+    explicit CheckpointWriter(const std::filesystem::path& file);
+
+    bool loading() const override { return false; }
+    void bytes(std::string_view name, std::span<std::byte> data) override;
+    void text(std::string_view name, std::string_view text);
+    void commit();
+
+private:
+    void section(std::string_view name, std::string_view data);
+
+    AtomicFile file_;
+};
+
+// Throws FileError: no such file, no checkpoint, another layout or byte order, cut off, or changed since it was
+// written. Data is given out only after its hash was found to be right.
+class CheckpointReader final : public StateArchive {
+public:
+    explicit CheckpointReader(const std::filesystem::path& file);
+
+    bool loading() const override { return true; }
+    void bytes(std::string_view name, std::span<std::byte> data) override;
+    std::string text(std::string_view name);
+    void finish(); // the archive ends here
+
+private:
+    std::uint64_t begin_section(std::string_view name);
+    void end_section(std::string_view name, std::string_view data);
+    void take(void* target, std::uint64_t bytes);
+    [[noreturn]] void refuse(const std::string& why) const;
+
+    std::filesystem::path path_;
+    std::ifstream file_;
+    std::uint64_t left_ = 0; // bytes of the file not yet read
+};
+
+} // namespace sundog

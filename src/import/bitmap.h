@@ -1,0 +1,18 @@
+// Image files as texels.
+#pragma once
+
+#include "base/errors.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+
+namespace sundog
+{
+
+// Images of 8 bits a channel stay so, encoded as they are unless `raw` says that they hold plain numbers; all others
+// become linear half floats. Gray becomes red, green and blue; alpha is left out. `clipped` is set where values were
+// not finite or beyond what a half float holds. Throws SceneError at `wanted_at` for an unreadable file; in a minimal
+// build, always.
+TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& wanted_at, bool raw, bool& clipped);
+
+} // namespace sundog

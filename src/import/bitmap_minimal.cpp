@@ -1,0 +1,11 @@
+#include "import/bitmap.h"
+
+namespace sundog
+{
+
+TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& wanted_at, bool, bool&)
+{
+    throw SceneError(wanted_at, "'" + file.string() + "': this build of Sundog reads no bitmaps; build without SUNDOG_MINIMAL");
+}
+
+} // namespace sundog

@@ -1,0 +1,97 @@
+#include "import/bitmap.h"
+
+#include "scene/spectrum.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace sundog
+{
+
+namespace
+{
+
+constexpr float largest_half = 65504.0f;
+
+[[noreturn]] void unreadable(const std::filesystem::path& file, const SourceLocation& wanted_at, std::string reason)
+{
+    std::replace(reason.begin(), reason.end(), '\n', ' ');
+    throw SceneError(wanted_at, "'" + file.string() + "': cannot read the image: " + reason);
+}
+
+// Channels of red, green and blue.
+std::array<std::size_t, 3> rgb_of(int channels)
+{
+    if (channels >= 3) return {0, 1, 2};
+    return {0, 0, 0};
+}
+
+template <class T> std::vector<T> read_pixels(OIIO::ImageInput& input, OIIO::TypeDesc type, const std::filesystem::path& file, const SourceLocation& wanted_at)
+{
+    const OIIO::ImageSpec& spec = input.spec();
+    std::vector<T> pixels(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * static_cast<std::size_t>(spec.nchannels));
+    if (!input.read_image(0, 0, 0, spec.nchannels, type, pixels.data())) unreadable(file, wanted_at, input.geterror());
+    return pixels;
+}
+
+std::vector<uint> pack_bytes(const std::vector<unsigned char>& pixels, int channels)
+{
+    const auto rgb = rgb_of(channels);
+    std::vector<uint> texels;
+    texels.reserve(pixels.size() / static_cast<std::size_t>(channels));
+    for (std::size_t i = 0; i < pixels.size(); i += static_cast<std::size_t>(channels))
+        texels.push_back(static_cast<uint>(pixels[i + rgb[0]]) | static_cast<uint>(pixels[i + rgb[1]]) << 8 | static_cast<uint>(pixels[i + rgb[2]]) << 16);
+    return texels;
+}
+
+uint half_bits(float value, bool& clipped)
+{
+    if (!(std::abs(value) <= largest_half)) { // also for NaN
+        clipped = true;
+        value = std::isnan(value) ? 0.0f : std::copysign(largest_half, value);
+    }
+    unsigned short bits = 0;
+    OIIO::convert_pixel_values(OIIO::TypeDesc::FLOAT, &value, OIIO::TypeDesc::HALF, &bits);
+    return bits;
+}
+
+std::vector<uint> pack_halves(const std::vector<float>& pixels, int channels, bool encoded, bool& clipped)
+{
+    const auto rgb = rgb_of(channels);
+    std::vector<uint> texels;
+    texels.reserve(2 * pixels.size() / static_cast<std::size_t>(channels));
+    for (std::size_t i = 0; i < pixels.size(); i += static_cast<std::size_t>(channels)) {
+        uint half[3];
+        for (std::size_t c = 0; c < 3; c++) half[c] = half_bits(encoded ? srgb_decode(pixels[i + rgb[c]]) : pixels[i + rgb[c]], clipped);
+        texels.push_back(half[0] | half[1] << 16);
+        texels.push_back(half[2]);
+    }
+    return texels;
+}
+
+} // namespace
+
+TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& wanted_at, bool raw, bool& clipped)
+{
+    const auto input = OIIO::ImageInput::open(file.string());
+    if (!input) unreadable(file, wanted_at, OIIO::geterror());
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) unreadable(file, wanted_at, "it has no pixels in a plane");
+    TexelImage image;
+    image.width = spec.width;
+    image.height = spec.height;
+    if (spec.format == OIIO::TypeDesc::UINT8) {
+        image.format = raw ? TexelFormat::linear8 : TexelFormat::srgb8;
+        image.texels = pack_bytes(read_pixels<unsigned char>(*input, OIIO::TypeDesc::UINT8, file, wanted_at), spec.nchannels);
+        return image;
+    }
+    const bool encoded = !raw && !spec.format.is_floating_point();
+    image.format = TexelFormat::half;
+    image.texels = pack_halves(read_pixels<float>(*input, OIIO::TypeDesc::FLOAT, file, wanted_at), spec.nchannels, encoded, clipped);
+    return image;
+}
+
+} // namespace sundog

@@ -1,0 +1,56 @@
+#include "import/obj_materials.h"
+
+#include "import/text_file.h"
+
+#include <map>
+#include <sstream>
+#include <tiny_obj_loader.h>
+
+namespace sundog
+{
+
+namespace
+{
+
+void append_library(const std::filesystem::path& file, ObjFile& result)
+{
+    std::istringstream stream(read_text_file(file, {}));
+    std::map<std::string, int> numbers;
+    std::vector<tinyobj::material_t> materials;
+    std::string warning, error;
+    tinyobj::LoadMtl(&numbers, &materials, &stream, &warning, &error);
+    std::istringstream lines(warning);
+    for (std::string line; std::getline(lines, line);)
+        if (!line.empty()) result.warnings.push_back(line);
+    for (const auto& material : materials) {
+        result.materials.push_back({material.name, {material.diffuse[0], material.diffuse[1], material.diffuse[2]}});
+        if (!material.diffuse_texname.empty())
+            result.warnings.push_back("material '" + material.name + "': texture '" + material.diffuse_texname +
+                                      "' is not supported, using Kd");
+        const bool emits = material.emission[0] > 0 || material.emission[1] > 0 || material.emission[2] > 0;
+        if (emits || material.dissolve < 1.0f || material.illum >= 3)
+            result.warnings.push_back("material '" + material.name + "': only its diffuse colour is used");
+    }
+}
+
+} // namespace
+
+void append_materials(const std::filesystem::path& obj_file, std::string_view names, ObjFile& result)
+{
+    // One name, perhaps with blanks in it; else several.
+    std::vector<std::filesystem::path> files = {obj_file.parent_path() / names};
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(files[0], ignored)) {
+        files.clear();
+        for (std::string_view name : tokens(names)) files.push_back(obj_file.parent_path() / name);
+    }
+    for (const auto& file : files) {
+        try {
+            append_library(file, result);
+        } catch (const SceneError& error) {
+            result.warnings.push_back(std::string("material library: ") + error.what());
+        }
+    }
+}
+
+} // namespace sundog

@@ -1,0 +1,97 @@
+#include "render/checkpoint.h"
+
+#include "base/errors.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace sundog {
+
+namespace {
+
+nlohmann::ordered_json json_of(const RenderIdentity& identity)
+{
+    nlohmann::ordered_json json;
+    json["version"] = identity.version;
+    json["method"] = identity.method;
+    json["parameters"] = identity.parameters;
+    json["seed"] = identity.seed;
+    json["width"] = identity.width;
+    json["height"] = identity.height;
+    json["scene_file"] = identity.scene_file;
+    json["scene"] = identity.scene;
+    return json;
+}
+
+RenderIdentity identity_of(const nlohmann::ordered_json& json)
+{
+    RenderIdentity identity;
+    json.at("version").get_to(identity.version);
+    json.at("method").get_to(identity.method);
+    json.at("parameters").get_to(identity.parameters);
+    json.at("seed").get_to(identity.seed);
+    json.at("width").get_to(identity.width);
+    json.at("height").get_to(identity.height);
+    json.at("scene_file").get_to(identity.scene_file);
+    json.at("scene").get_to(identity.scene);
+    return identity;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& difference, const std::string& cure)
+{
+    throw FileError(fmt::format("{}: cannot resume, the checkpoint is of {}; {}", file.string(), difference, cure));
+}
+
+// What a size or a seed would change in the fingerprint too is compared first, so that the message names the cause.
+void check_same(const RenderIdentity& stored, const RenderIdentity& wanted, const std::filesystem::path& file)
+{
+    const std::string other = "or choose another --checkpoint file";
+    if (stored.version != wanted.version)
+        refuse(file, fmt::format("sundog {}, this is {}", stored.version, wanted.version), "resume with the version that wrote it, " + other);
+    if (stored.method != wanted.method)
+        refuse(file, fmt::format("method {}, not {}", stored.method, wanted.method), fmt::format("use -m {}, {}", stored.method, other));
+    if (stored.parameters.size() != wanted.parameters.size()) refuse(file, "a method with other parameters", other.substr(3));
+    for (std::size_t i = 0; i < wanted.parameters.size(); i++) {
+        const auto& [name, value] = stored.parameters[i];
+        if (stored.parameters[i] != wanted.parameters[i])
+            refuse(file, fmt::format("{}={}, not {}={}", name, value, wanted.parameters[i].first, wanted.parameters[i].second),
+                   fmt::format("use -p {}={}, {}", name, value, other));
+    }
+    if (stored.seed != wanted.seed) refuse(file, fmt::format("seed {}, not {}", stored.seed, wanted.seed), fmt::format("use -s {}, {}", stored.seed, other));
+    if (stored.width != wanted.width || stored.height != wanted.height)
+        refuse(file, fmt::format("{}x{} pixels, not {}x{}", stored.width, stored.height, wanted.width, wanted.height), "use that size, " + other);
+    if (stored.scene != wanted.scene)
+        refuse(file, fmt::format("another scene ({}, not {} as it is now)", stored.scene_file, wanted.scene_file), "render that scene, " + other);
+}
+
+} // namespace
+
+std::string checkpoint_text(const RenderIdentity& identity, const RenderProgress& progress)
+{
+    nlohmann::ordered_json json = json_of(identity);
+    json["device"] = progress.device;
+    json["iterations"] = progress.iterations;
+    json["seconds"] = progress.seconds;
+    json["stage_seconds"] = progress.stage_seconds;
+    // A file name need not be UTF-8.
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+RenderProgress progress_of_same_render(const std::string& text, const RenderIdentity& wanted, const std::filesystem::path& file)
+{
+    try {
+        const auto json = nlohmann::ordered_json::parse(text);
+        check_same(identity_of(json), wanted, file);
+        RenderProgress progress;
+        json.at("device").get_to(progress.device);
+        json.at("iterations").get_to(progress.iterations);
+        json.at("seconds").get_to(progress.seconds);
+        json.at("stage_seconds").get_to(progress.stage_seconds);
+        return progress;
+    } catch (const nlohmann::json::exception& error) {
+        throw FileError(fmt::format("{}: cannot resume, the checkpoint does not describe its render ({}); render afresh without --resume", file.string(),
+                                    error.what()));
+    }
+}
+
+} // namespace sundog

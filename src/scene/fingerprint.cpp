@@ -1,0 +1,31 @@
+#include "scene/fingerprint.h"
+
+#include "base/hash.h"
+
+#include <span>
+
+namespace sundog {
+
+namespace {
+
+template <class T> void append(Hash& hash, std::span<const T> elements)
+{
+    hash.append_field({reinterpret_cast<const char*>(elements.data()), elements.size_bytes()});
+}
+
+} // namespace
+
+std::string fingerprint(const FlatScene& scene, const Camera& camera, const PixelFilter& filter)
+{
+    Hash hash;
+    append(hash, std::span<const AnalyticPrimitive>(scene.analytics));
+#define APPEND(type, name) append(hash, std::span<const type>(scene.name));
+    SURFACE_ARRAYS(APPEND)
+#undef APPEND
+    append(hash, std::span(&scene.globals, 1));
+    append(hash, std::span(&camera, 1));
+    append(hash, std::span(&filter, 1));
+    return hash.hex();
+}
+
+} // namespace sundog

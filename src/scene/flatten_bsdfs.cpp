@@ -1,0 +1,140 @@
+#include "scene/flatten_bsdfs.h"
+
+#include <algorithm>
+
+namespace sundog {
+
+namespace {
+
+constexpr uint no_flags = 0;
+
+Bsdf record(uint type, uint flags)
+{
+    const TexturedColor one{{1, 1, 1}, NO_TEXTURE};
+    Bsdf bsdf{};
+    bsdf.type = type;
+    bsdf.flags = flags;
+    bsdf.eta = 1.0f;
+    bsdf.reflectance = bsdf.specular = bsdf.transmittance = one;
+    bsdf.alpha_u = bsdf.alpha_v = bsdf.weight = {0.0f, NO_TEXTURE};
+    return bsdf;
+}
+
+// A roughness that a texture gives may be anything.
+bool is_broad(const Roughness& roughness)
+{
+    return roughness.alpha_u.texture || roughness.alpha_v.texture || std::min(roughness.alpha_u.value, roughness.alpha_v.value) >= NARROW_ALPHA;
+}
+
+uint lobe_flags(const std::optional<Roughness>& roughness)
+{
+    if (!roughness) return no_flags;
+    return BSDF_HAS_SMOOTH | (is_broad(*roughness) ? BSDF_HAS_BROAD : 0u) | (roughness->beckmann ? BSDF_BECKMANN : 0u);
+}
+
+void set_roughness(Bsdf& bsdf, const std::optional<Roughness>& roughness)
+{
+    if (!roughness) return;
+    bsdf.alpha_u = flatten(roughness->alpha_u);
+    bsdf.alpha_v = flatten(roughness->alpha_v);
+}
+
+// Of one description by itself; what it takes from nested ones comes later.
+struct BsdfFlattener {
+    Bsdf operator()(const DiffuseBsdf& diffuse) const
+    {
+        Bsdf bsdf = record(BSDF_DIFFUSE, BSDF_HAS_SMOOTH | BSDF_HAS_BROAD | BSDF_BLACK_BACK);
+        bsdf.reflectance = flatten(diffuse.reflectance);
+        return bsdf;
+    }
+    Bsdf operator()(const DielectricBsdf& dielectric) const
+    {
+        const uint smooth = dielectric.thin ? BSDF_THIN_DIELECTRIC : BSDF_DIELECTRIC;
+        // Ground glass is always followed, see NARROW_ALPHA.
+        Bsdf bsdf = record(dielectric.roughness ? BSDF_ROUGH_DIELECTRIC : smooth, lobe_flags(dielectric.roughness) & ~BSDF_HAS_BROAD);
+        bsdf.eta = dielectric.int_ior / dielectric.ext_ior;
+        bsdf.specular = flatten(dielectric.specular_reflectance);
+        bsdf.transmittance = flatten(dielectric.specular_transmittance);
+        set_roughness(bsdf, dielectric.roughness);
+        return bsdf;
+    }
+    Bsdf operator()(const ConductorBsdf& conductor) const
+    {
+        Bsdf bsdf = record(conductor.roughness ? BSDF_ROUGH_CONDUCTOR : BSDF_CONDUCTOR, BSDF_BLACK_BACK | lobe_flags(conductor.roughness));
+        bsdf.specular = flatten(conductor.specular_reflectance);
+        bsdf.eta_rgb = conductor.eta;
+        bsdf.k_rgb = conductor.k;
+        set_roughness(bsdf, conductor.roughness);
+        return bsdf;
+    }
+    Bsdf operator()(const NullBsdf&) const { return record(BSDF_NULL, no_flags); }
+    Bsdf operator()(const MaskBsdf& mask) const
+    {
+        Bsdf bsdf = record(BSDF_MASK, no_flags);
+        bsdf.weight = flatten(mask.opacity);
+        bsdf.nested[0] = mask.nested;
+        return bsdf;
+    }
+    Bsdf operator()(const BlendBsdf& blend) const
+    {
+        Bsdf bsdf = record(BSDF_BLEND, no_flags);
+        bsdf.weight = flatten(blend.weight);
+        bsdf.nested[0] = blend.nested[0];
+        bsdf.nested[1] = blend.nested[1];
+        return bsdf;
+    }
+    Bsdf operator()(const TwoSidedBsdf&) const { return record(BSDF_NULL, no_flags); } // replaced below
+};
+
+constexpr uint inherited_flags = BSDF_HAS_SMOOTH | BSDF_HAS_BROAD; // from any part; BSDF_BLACK_BACK only from all
+
+// Importers add nested BSDFs before those that hold them, so one pass in order sees all.
+void take_from_nested(const BsdfDescription& description, std::vector<Bsdf>& bsdfs, std::size_t i)
+{
+    if (const auto* mask = std::get_if<MaskBsdf>(&description.model)) bsdfs[i].flags |= bsdfs.at(mask->nested).flags & (inherited_flags | BSDF_BLACK_BACK);
+    if (const auto* blend = std::get_if<BlendBsdf>(&description.model)) {
+        const uint first = bsdfs.at(blend->nested[0]).flags, second = bsdfs.at(blend->nested[1]).flags;
+        bsdfs[i].flags |= ((first | second) & inherited_flags) | (first & second & BSDF_BLACK_BACK);
+    }
+    if (const auto* sides = std::get_if<TwoSidedBsdf>(&description.model)) {
+        // The front's record, which names the back's, itself a record of its own.
+        bsdfs[i] = bsdfs.at(sides->front);
+        bsdfs[i].flags &= ~BSDF_BLACK_BACK;
+        bsdfs[i].flags |= BSDF_TWO_SIDED;
+        bsdfs[i].back = sides->back;
+    }
+}
+
+} // namespace
+
+TexturedColor flatten(const ColorSource& color)
+{
+    return {color.value, color.texture.value_or(NO_TEXTURE)};
+}
+
+TexturedNumber flatten(const NumberSource& number)
+{
+    return {number.value, number.texture.value_or(NO_TEXTURE)};
+}
+
+std::vector<Bsdf> flatten_bsdfs(const std::vector<BsdfDescription>& descriptions)
+{
+    std::vector<Bsdf> bsdfs;
+    for (const auto& description : descriptions) bsdfs.push_back(std::visit(BsdfFlattener{}, description.model));
+    for (std::size_t i = 0; i < descriptions.size(); i++) take_from_nested(descriptions[i], bsdfs, i);
+    return bsdfs;
+}
+
+uint bsdf_types(std::span<const Bsdf> bsdfs)
+{
+    uint types = 0;
+    for (const Bsdf& bsdf : bsdfs) types |= 1u << bsdf.type;
+    return types;
+}
+
+bool has_lobes_to_evaluate(std::span<const Bsdf> bsdfs)
+{
+    return std::any_of(bsdfs.begin(), bsdfs.end(), [](const Bsdf& bsdf) { return bsdf.type == BSDF_ROUGH_CONDUCTOR || bsdf.type == BSDF_ROUGH_DIELECTRIC; });
+}
+
+} // namespace sundog

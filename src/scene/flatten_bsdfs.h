@@ -1,0 +1,24 @@
+// BSDFs as the device's records.
+#pragma once
+
+#include "scene/scene.h"
+#include "shared/bsdf.h"
+
+#include <span>
+#include <vector>
+
+namespace sundog {
+
+// One record a description, in the same order.
+std::vector<Bsdf> flatten_bsdfs(const std::vector<BsdfDescription>& descriptions);
+
+TexturedColor flatten(const ColorSource& color);
+TexturedNumber flatten(const NumberSource& number);
+
+// Bit t is set where there are BSDFs of type t: what kernels are specialised for.
+uint bsdf_types(std::span<const Bsdf> bsdfs);
+
+// Whether a query may meet a lobe whose value depends on where a photon comes from.
+bool has_lobes_to_evaluate(std::span<const Bsdf> bsdfs);
+
+} // namespace sundog

@@ -1,0 +1,108 @@
+// Asks the device's BSDF code: draws directions, and evaluates given ones.
+#pragma once
+
+#include "scene/flatten_bsdfs.h"
+#include "shared/geometry.h"
+#include "support/device_fixture.h"
+#include "support/double3.h"
+
+namespace sundog
+{
+
+constexpr uint carries_radiance = 0, carries_flux = 1;
+
+struct BsdfDraw {
+    Vec3d direction; // zero where the path was absorbed
+    Vec3d weight;
+    double pdf, eta_scale;
+    double evaluated_pdf, evaluated; // bsdf_pdf_w and the red of bsdf_evaluate for the direction
+    bool absorbed() const { return length(direction) == 0.0; }
+};
+
+// A surface point and the side it is seen from.
+struct SurfaceSide {
+    Vec3d outgoing;
+    Vec3d geometric_normal{0, 0, 1};
+    Vec3d shading_normal{0, 0, 1};
+};
+
+// Direction at an angle (rad) to +z, at some azimuth.
+inline Vec3d direction_at(double angle)
+{
+    return {std::sin(angle) * std::cos(0.7), std::sin(angle) * std::sin(0.7), std::cos(angle)};
+}
+
+inline Bsdf flat_bsdf(decltype(BsdfDescription::model) model)
+{
+    return flatten_bsdfs({{"", {}, std::move(model)}})[0];
+}
+
+class BsdfProbe : public DeviceFixture
+{
+protected:
+    // `count` directions of the BSDF `first` of the list; each by its own random numbers.
+    std::vector<BsdfDraw> draw(const std::vector<Bsdf>& bsdfs, const SurfaceSide& side, uint carries, uint count, uint first = 0)
+    {
+        return run(bsdfs, side, carries, count, {}, first);
+    }
+
+    std::vector<BsdfDraw> evaluate(const std::vector<Bsdf>& bsdfs, const SurfaceSide& side, const std::vector<Vec3d>& directions,
+                                   uint carries = carries_radiance)
+    {
+        std::vector<Vec3> given;
+        for (Vec3d d : directions) given.push_back(to_float(d));
+        return run(bsdfs, side, carries, static_cast<uint>(given.size()), given, 0);
+    }
+
+private:
+    std::vector<BsdfDraw> run(const std::vector<Bsdf>& bsdfs, const SurfaceSide& side, uint carries, uint count, const std::vector<Vec3>& given, uint first)
+    {
+        const auto shapes = upload(std::vector<Shape>{{first, NO_LIGHT, 0, 0}});
+        const auto output = allocate<float>(std::size_t(10) * count);
+        const auto directions = upload(given.empty() ? std::vector<Vec3>(1) : given);
+        kernel_(count, upload(bsdfs), shapes, to_float(side.outgoing), to_float(side.geometric_normal), to_float(side.shading_normal), carries, count,
+                uint(given.empty() ? 0 : 1), directions, output);
+        const auto values = output.download();
+        std::vector<BsdfDraw> samples(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const float* v = &values[10 * i];
+            samples[i] = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6], v[7], v[8], v[9]};
+        }
+        return samples;
+    }
+
+    Kernel kernel_ = test_kernel(R"(
+        #include "scene/bsdf.h"
+        __kernel void test(__global const Bsdf* bsdfs, __global const Shape* shapes, Vec3 outgoing, Vec3 geometric_normal, Vec3 shading_normal, uint carries,
+                           uint count, uint given, __global const Vec3* directions, __global float* output)
+        {
+            uint i = get_global_id(0);
+            if (i >= count) return;
+            SurfaceView scene;
+            scene.bsdfs = bsdfs;
+            scene.shapes = shapes;
+            Surface surface;
+            surface.position = (float3)(0.0f);
+            surface.outgoing = unpack(outgoing);
+            surface.geometric_normal = unpack(geometric_normal);
+            surface.shading_normal = unpack(shading_normal);
+            surface.offset = 0.0f;
+            surface.shape = 0u;
+            surface.primitive = 0u;
+            surface.uv = surface.barycentric = (float2)(0.25f, 0.5f);
+            surface.dpdu = (float3)(1.0f, 0.5f, 0.0f);
+            surface.dpdv = (float3)(-0.5f, 1.0f, 0.0f);
+            const Scattering scattering = scattering_at(&scene, &surface, random4(i, 7u).x);
+            BsdfSample sample = {(float3)(0.0f), (float3)(0.0f), 0.0f, 1.0f};
+            if (given) sample.direction = unpack(directions[i]);
+            else if (!bsdf_sample(&scattering, &surface, random4(i, 3u + carries), (int)carries, &sample)) sample.direction = (float3)(0.0f);
+            vstore3(sample.direction, 0, output + 10u * i);
+            vstore3(sample.weight, 0, output + 10u * i + 3u);
+            output[10u * i + 6u] = sample.pdf_w;
+            output[10u * i + 7u] = sample.eta_scale;
+            output[10u * i + 8u] = bsdf_pdf_w(&scattering, &surface, sample.direction);
+            output[10u * i + 9u] = bsdf_evaluate(&scattering, &surface, sample.direction, (int)carries).x;
+        })");
+};
+
+} // namespace sundog
