@@ -87,7 +87,11 @@ static inline Scattering scattering_at(const SurfaceView* scene, const Surface* 
 // specular and narrow ones; or, for `narrow` lobes, only those that nothing else finds.
 static inline bool wants_photons(const SurfaceView* scene, const Surface* surface, bool found_elsewhere)
 {
-    const uint flags = scene->bsdfs[scene->shapes[surface->shape].bsdf].flags;
+    const uint front = scene->shapes[surface->shape].bsdf;
+    const bool behind = dot(surface->outgoing, surface->shading_normal) <= 0.0f;
+    uint flags = scene->bsdfs[front].flags;
+    if (behind && (flags & BSDF_TWO_SIDED)) flags = scene->bsdfs[scene->bsdfs[front].back].flags;
+    else if (behind && (flags & BSDF_BLACK_BACK)) return false;
     return (flags & BSDF_HAS_BROAD) || ((flags & BSDF_HAS_SMOOTH) && !found_elsewhere);
 }
 

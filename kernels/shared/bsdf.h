@@ -18,9 +18,11 @@ SHARED_BEGIN
 // Scatters on both sides: the back by the BSDF `back`. Without it, the back of
 // an opaque BSDF is black, as in Mitsuba.
 #define BSDF_TWO_SIDED 1u
-// Some lobe, on either side, that is not specular; and one that is neither specular nor narrow.
+// Some lobe that is not specular; and one that is neither specular nor narrow. Of a two-sided BSDF: of its front.
 #define BSDF_HAS_SMOOTH 2u
 #define BSDF_HAS_BROAD 4u
+// Black from behind, whatever lobe a path chooses: opaque, and not two-sided.
+#define BSDF_BLACK_BACK 16u
 // The microfacets' normals are distributed by Beckmann's law; else by Trowbridge and Reitz's (GGX).
 #define BSDF_BECKMANN 8u
 

@@ -43,7 +43,7 @@ void set_roughness(Bsdf& bsdf, const std::optional<Roughness>& roughness)
 struct BsdfFlattener {
     Bsdf operator()(const DiffuseBsdf& diffuse) const
     {
-        Bsdf bsdf = record(BSDF_DIFFUSE, BSDF_HAS_SMOOTH | BSDF_HAS_BROAD);
+        Bsdf bsdf = record(BSDF_DIFFUSE, BSDF_HAS_SMOOTH | BSDF_HAS_BROAD | BSDF_BLACK_BACK);
         bsdf.reflectance = flatten(diffuse.reflectance);
         return bsdf;
     }
@@ -60,7 +60,7 @@ struct BsdfFlattener {
     }
     Bsdf operator()(const ConductorBsdf& conductor) const
     {
-        Bsdf bsdf = record(conductor.roughness ? BSDF_ROUGH_CONDUCTOR : BSDF_CONDUCTOR, lobe_flags(conductor.roughness));
+        Bsdf bsdf = record(conductor.roughness ? BSDF_ROUGH_CONDUCTOR : BSDF_CONDUCTOR, BSDF_BLACK_BACK | lobe_flags(conductor.roughness));
         bsdf.specular = flatten(conductor.specular_reflectance);
         bsdf.eta_rgb = conductor.eta;
         bsdf.k_rgb = conductor.k;
@@ -86,18 +86,21 @@ struct BsdfFlattener {
     Bsdf operator()(const TwoSidedBsdf&) const { return record(BSDF_NULL, no_flags); } // replaced below
 };
 
-constexpr uint inherited_flags = BSDF_HAS_SMOOTH | BSDF_HAS_BROAD;
+constexpr uint inherited_flags = BSDF_HAS_SMOOTH | BSDF_HAS_BROAD; // from any part; BSDF_BLACK_BACK only from all
 
 // Importers add nested BSDFs before those that hold them, so one pass in order sees all.
 void take_from_nested(const BsdfDescription& description, std::vector<Bsdf>& bsdfs, std::size_t i)
 {
-    if (const auto* mask = std::get_if<MaskBsdf>(&description.model)) bsdfs[i].flags |= bsdfs.at(mask->nested).flags & inherited_flags;
-    if (const auto* blend = std::get_if<BlendBsdf>(&description.model))
-        bsdfs[i].flags |= (bsdfs.at(blend->nested[0]).flags | bsdfs.at(blend->nested[1]).flags) & inherited_flags;
+    if (const auto* mask = std::get_if<MaskBsdf>(&description.model)) bsdfs[i].flags |= bsdfs.at(mask->nested).flags & (inherited_flags | BSDF_BLACK_BACK);
+    if (const auto* blend = std::get_if<BlendBsdf>(&description.model)) {
+        const uint first = bsdfs.at(blend->nested[0]).flags, second = bsdfs.at(blend->nested[1]).flags;
+        bsdfs[i].flags |= ((first | second) & inherited_flags) | (first & second & BSDF_BLACK_BACK);
+    }
     if (const auto* sides = std::get_if<TwoSidedBsdf>(&description.model)) {
         // The front's record, which names the back's, itself a record of its own.
         bsdfs[i] = bsdfs.at(sides->front);
-        bsdfs[i].flags |= BSDF_TWO_SIDED | (bsdfs.at(sides->back).flags & inherited_flags);
+        bsdfs[i].flags &= ~BSDF_BLACK_BACK;
+        bsdfs[i].flags |= BSDF_TWO_SIDED;
         bsdfs[i].back = sides->back;
     }
 }

@@ -3,6 +3,7 @@
 #include "stages/sampling.h"
 #include "support/chi_squared.h"
 #include "support/device_fixture.h"
+#include "support/plain_random.h"
 
 #include <array>
 
@@ -51,6 +52,12 @@ TEST_F(RandomNumbers, PhiloxGivesItsKnownAnswers)
     for (std::size_t i = 0; i < known_answers.size(); ++i)
         for (std::size_t word = 0; word < 4; ++word)
             EXPECT_EQ(results[4 * i + word], known_answers[i].result[word]) << "case " << i << ", word " << word;
+}
+
+// What other tests take their random numbers from.
+TEST(PlainRandomNumbers, PhiloxGivesItsKnownAnswers)
+{
+    for (const auto& answer : known_answers) EXPECT_EQ(plain_philox(answer.counter, answer.key), answer.result);
 }
 
 // Work-item i draws `blocks` blocks of four numbers for path i of the iteration.
@@ -105,6 +112,24 @@ TEST_F(IndependentSampler, IsUniformInEachDimension)
         std::vector<double> counts(1024, 0.0);
         for (std::size_t i = dimension; i < numbers.size(); i += 4) counts.at(static_cast<std::size_t>(numbers[i] * 1024.0f)) += 1.0;
         EXPECT_TRUE(is_uniform(counts, tests_in_file)) << "dimension " << dimension;
+    }
+}
+
+// Bit for bit what plain code makes of the definition, for both streams and with all halves of the key in use.
+TEST_F(IndependentSampler, GivesThePlainNumbers)
+{
+    const SamplerKey key = sampler_key(0x0123456789abcdef, (std::uint64_t(3) << 32) + 5);
+    constexpr uint depth = 3;
+    const auto camera = draw(key, STREAM_CAMERA, depth, 2), light = draw(key, STREAM_LIGHT, depth, 2);
+    for (uint path = 0; path < paths; path += 97) {
+        const auto pixel = PlainNumbers::camera(key, path).lens(depth);
+        const auto scatter = PlainNumbers::light(key, path, paths).scatter(depth, true);
+        const float* first = &camera[8 * path];
+        const float* second = &light[8 * path + 4];
+        ASSERT_EQ((std::array<double, 4>{first[0], first[1], first[2], first[3]}),
+                  (std::array<double, 4>{pixel.position[0], pixel.position[1], pixel.pixel[0], pixel.pixel[1]}));
+        ASSERT_EQ((std::array<double, 4>{second[0], second[1], second[2], second[3]}),
+                  (std::array<double, 4>{scatter.direction[0], scatter.direction[1], scatter.lobe, scatter.survival}));
     }
 }
 

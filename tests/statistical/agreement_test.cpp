@@ -89,6 +89,41 @@ TEST(Agreement, GlassAndMirrorSpheres)
     expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24)}, edge_bias);
 }
 
+// Broad reflections are asked for photons; narrow ones are followed, and asked only for what no followed path finds.
+TEST(Agreement, RoughMetals)
+{
+    Scene scene = cornell_box(size);
+    const Vec3 eta{0.2f, 0.9f, 1.1f}, k{3.9f, 2.5f, 2.1f};
+    const uint broad = add_bsdf(scene, ConductorBsdf{eta, k, {}, Roughness{false, 0.4f, 0.25f}});
+    const uint narrow = add_bsdf(scene, ConductorBsdf{eta, k, {}, Roughness{true, 0.1f, 0.1f}});
+    scene.shapes.push_back(make_sphere({.45f, -.6f, .3f}, .4f, broad));
+    scene.shapes.push_back(make_sphere({-.45f, -.6f, -.3f}, .4f, narrow));
+    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("pppm", 48, "direct", "photons")},
+                     edge_bias);
+}
+
+TEST(Agreement, GroundGlass)
+{
+    Scene scene = cornell_box(size);
+    const uint glass = add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {}, {}, Roughness{false, 0.5f, 0.5f}});
+    scene.shapes.push_back(make_sphere({0, -.5f, .2f}, .45f, glass));
+    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48)}, edge_bias);
+}
+
+// A point light, by way of a mirror in front of the box that the camera does not see, on narrow metal: neither can the
+// light be hit nor the mirror be connected, so only light paths and photons find it.
+TEST(Agreement, MirroredPointLightOnNarrowMetal)
+{
+    Scene scene = cornell_box(size);
+    scene.shapes.pop_back(); // the box's own light
+    scene.emitters.push_back({{}, PointEmitter{{.1f, .6f, 2.2f}, {6, 6, 6}}});
+    const uint mirror = add_bsdf(scene, ConductorBsdf{});
+    const uint narrow = add_bsdf(scene, ConductorBsdf{{0.2f, 0.9f, 1.1f}, {3.9f, 2.5f, 2.1f}, {}, Roughness{false, 0.12f, 0.12f}});
+    scene.shapes.push_back(make_quad({-1, -1, 1.2f}, {-1, -1, 3}, {1, -1, 3}, {1, -1, 1.2f}, mirror));
+    scene.shapes.push_back(make_sphere({0, -.35f, .2f}, .6f, narrow));
+    expect_agreement(scene, {request("ptracer", 96), request("pppm", 64), request("sppm", 64), request("pppm", 64, "direct", "photons")}, edge_bias);
+}
+
 TEST(Agreement, ThinPaneAndDisk)
 {
     Scene scene = cornell_box(size);

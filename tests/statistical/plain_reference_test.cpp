@@ -90,7 +90,7 @@ private:
     {
         if (const auto* diffuse = std::get_if<DiffuseBsdf>(&bsdf.model)) {
             if (cosine <= 0) return false;
-            throughput *= static_cast<double>(diffuse->reflectance.y);
+            throughput *= static_cast<double>(diffuse->reflectance.value.y);
             // Cosine-weighted: a point on the unit sphere that touches the surface from above.
             const double z = 2 * uniform() - 1, phi = 2 * std::numbers::pi * uniform(), s = std::sqrt(1 - z * z);
             direction = unit(normal + Vector{s * std::cos(phi), s * std::sin(phi), z});

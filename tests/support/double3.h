@@ -18,6 +18,7 @@ struct Vec3d {
     Vec3d operator+(Vec3d b) const { return {x + b.x, y + b.y, z + b.z}; }
     Vec3d operator-(Vec3d b) const { return {x - b.x, y - b.y, z - b.z}; }
     Vec3d operator*(double s) const { return {x * s, y * s, z * s}; }
+    Vec3d operator*(Vec3d b) const { return {x * b.x, y * b.y, z * b.z}; } // colours
     Vec3d operator/(double s) const { return {x / s, y / s, z / s}; }
     Vec3d operator-() const { return {-x, -y, -z}; }
 };
@@ -33,6 +34,14 @@ inline Vec3d cross(Vec3d a, Vec3d b)
 inline double length(Vec3d a)
 {
     return std::sqrt(dot(a, a));
+}
+inline double largest(Vec3d a)
+{
+    return std::fmax(a.x, std::fmax(a.y, a.z));
+}
+inline bool is_black(Vec3d a)
+{
+    return a.x == 0.0 && a.y == 0.0 && a.z == 0.0;
 }
 inline Vec3d normalized(Vec3d a)
 {

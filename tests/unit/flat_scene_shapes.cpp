@@ -135,7 +135,7 @@ TEST(FlatSceneBsdfs, RecordsKeepTheirModels)
     builder.shape(Sphere{}).emitter(lamp);
     const std::vector<Bsdf> bsdfs = flatten_scene(builder.scene).bsdfs;
     EXPECT_EQ(bsdfs[red].type, BSDF_DIFFUSE);
-    EXPECT_EQ(bsdfs[red].flags, BSDF_HAS_SMOOTH | BSDF_HAS_BROAD);
+    EXPECT_EQ(bsdfs[red].flags, BSDF_HAS_SMOOTH | BSDF_HAS_BROAD | BSDF_BLACK_BACK);
     EXPECT_EQ(bsdfs[glass].type, BSDF_DIELECTRIC);
     EXPECT_FLOAT_EQ(bsdfs[glass].eta, 1.25f);
     EXPECT_EQ(bsdfs[glass].transmittance.value.x, 0.5f);

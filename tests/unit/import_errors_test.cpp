@@ -105,7 +105,7 @@ const std::vector<Broken> broken_scenes = {
     {"ColdBlackBody", 2, "temperature", scene("<emitter type=\"point\"><blackbody name=\"intensity\" temperature=\"-3\"/></emitter>")},
     {"UnknownAttribute", 3, "'vlaue'", bsdf("<float name=\"radius\" vlaue=\"1\"/>")},
     {"NamelessValue", 3, "attribute name", bsdf("<float value=\"1\"/>")},
-    {"Texture", 3, "texture plugin 'bitmap'", bsdf("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\"/></bsdf>")},
+    {"Texture", 3, "texture plugin 'wood'", bsdf("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"wood\"/></bsdf>")},
     {"UnknownSpectrum", 2, "spectrum plugin 'rainbow'",
      scene("<emitter type=\"constant\"><spectrum name=\"radiance\" type=\"rainbow\"/></emitter>")},
     // Transforms
@@ -150,7 +150,7 @@ const std::vector<Broken> broken_scenes = {
      bsdf("<bsdf type=\"conductor\"><string name=\"material\" value=\"Au\"/><float name=\"eta\" value=\"1\"/></bsdf>")},
     {"EmptyTwoSided", 3, "twosided", bsdf("<bsdf type=\"twosided\"/>")},
     {"TwoSidedGlass", 3, "transmits", bsdf("<bsdf type=\"twosided\"><bsdf type=\"dielectric\"/></bsdf>")},
-    {"TwoSidedTwice", 3, "another", bsdf("<bsdf type=\"twosided\" id=\"t\"><ref id=\"t\"/></bsdf>")},
+    {"TwoSidedTwice", 3, "contains itself", bsdf("<bsdf type=\"twosided\" id=\"t\"><ref id=\"t\"/></bsdf>")},
     {"HideEmitters", 2, "hide_emitters", scene("<integrator type=\"path\"><boolean name=\"hide_emitters\" value=\"true\"/></integrator>")},
     {"TwoIntegrators", 3, "only one <integrator>", scene("<integrator type=\"path\"/>\n<integrator type=\"sppm\"/>")},
     {"LooseFilm", 2, "film plugin 'hdrfilm'", scene("<film type=\"hdrfilm\"/>")},

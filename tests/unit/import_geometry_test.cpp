@@ -208,7 +208,7 @@ TEST(ImportGeometry, ObjMaterialsMakeOneShapeEach)
     const auto loaded = folder.load(scene_with(shape + "</shape>"));
     ASSERT_EQ(loaded.scene.shapes.size(), 4u) << "bare, red, glow and the light";
     const auto reflectance = [&](std::size_t i) {
-        return std::get<DiffuseBsdf>(loaded.scene.bsdfs[loaded.scene.shapes[i].bsdf].model).reflectance;
+        return std::get<DiffuseBsdf>(loaded.scene.bsdfs[loaded.scene.shapes[i].bsdf].model).reflectance.value;
     };
     expect_near(reflectance(0), {0.5f, 0.5f, 0.5f}, 0);
     expect_near(reflectance(1), {0.8f, 0.1f, 0.1f}, 0);

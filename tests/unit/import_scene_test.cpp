@@ -33,7 +33,7 @@ std::string fingerprint(const Scene& scene)
     for (const auto& [name, value] : scene.integrator.parameters) out << name << '=' << value.value << '\n';
     for (const auto& bsdf : scene.bsdfs) {
         out << bsdf.id << ' ' << bsdf.model.index() << '\n';
-        if (const auto* diffuse = std::get_if<DiffuseBsdf>(&bsdf.model)) put(diffuse->reflectance);
+        if (const auto* diffuse = std::get_if<DiffuseBsdf>(&bsdf.model)) put(diffuse->reflectance.value);
         if (const auto* glass = std::get_if<DielectricBsdf>(&bsdf.model)) out << glass->int_ior << ' ' << glass->ext_ior << '\n';
         if (const auto* metal = std::get_if<ConductorBsdf>(&bsdf.model)) put(metal->eta), put(metal->k);
     }
@@ -125,7 +125,7 @@ TEST(ImportScene, BothSchemasGiveTheSameScene)
     ASSERT_EQ(scene.shapes.size(), 3u);
     EXPECT_TRUE(std::get<Sphere>(scene.shapes[0].geometry).flip_normals);
     EXPECT_FLOAT_EQ(bsdf_of<DielectricBsdf>(a, 0).int_ior, 1.333f);
-    expect_near(bsdf_of<DiffuseBsdf>(a, 1).reflectance, {0.8f, 0.8f, 0.8f}, 0);
+    expect_near(bsdf_of<DiffuseBsdf>(a, 1).reflectance.value, {0.8f, 0.8f, 0.8f}, 0);
     EXPECT_EQ(scene.bsdfs[scene.shapes[1].bsdf].id, "white");
     expect_near(scene.shapes[2].emitter->radiance, {1, 2, 3}, 0);
     EXPECT_NEAR(std::get<SpotEmitter>(scene.emitters.at(0).model).beam_width, 10 * 3.14159265 / 180, 1e-6);
@@ -150,9 +150,9 @@ TEST(ImportScene, DefaultsAndDefines)
         <shape type="sphere"><float name="radius" value="$radius"/><bsdf type="diffuse"><rgb name="reflectance" value="$r $r 0.5"/></bsdf></shape>)";
     const auto plain = load_with(xml);
     EXPECT_FLOAT_EQ(std::get<Sphere>(plain.scene.shapes.at(0).geometry).radius, 3.0f);
-    expect_near(bsdf_of<DiffuseBsdf>(plain, 0).reflectance, {0.25f, 0.25f, 0.5f}, 0);
+    expect_near(bsdf_of<DiffuseBsdf>(plain, 0).reflectance.value, {0.25f, 0.25f, 0.5f}, 0);
     const auto defined = load_with(xml, {{{"r", "0.75"}}});
-    expect_near(bsdf_of<DiffuseBsdf>(defined, 0).reflectance, {0.75f, 0.75f, 0.5f}, 0);
+    expect_near(bsdf_of<DiffuseBsdf>(defined, 0).reflectance.value, {0.75f, 0.75f, 0.5f}, 0);
     // Without a <default>, too.
     const auto bare = load_with(R"(<shape type="sphere"><float name="radius" value="$size"/></shape>)", {{{"size", "7"}}});
     EXPECT_FLOAT_EQ(std::get<Sphere>(bare.scene.shapes.at(0).geometry).radius, 7.0f);
@@ -185,7 +185,7 @@ TEST(ImportScene, ReferencesMayLookForwardAndThroughAliases)
     const auto loaded = load_with(R"(<shape type="sphere"><ref id="paint"/></shape><shape type="disk"><ref id="lacquer"/></shape>
         <bsdf type="diffuse" id="paint"><rgb name="reflectance" value="0.1, 0.2, 0.3"/></bsdf><alias id="paint" as="lacquer"/>)");
     EXPECT_EQ(loaded.scene.shapes.at(0).bsdf, loaded.scene.shapes.at(1).bsdf) << "one object, used twice";
-    expect_near(bsdf_of<DiffuseBsdf>(loaded, 0).reflectance, {0.1f, 0.2f, 0.3f}, 1e-7f);
+    expect_near(bsdf_of<DiffuseBsdf>(loaded, 0).reflectance.value, {0.1f, 0.2f, 0.3f}, 1e-7f);
 }
 
 TEST(ImportScene, UnusedObjectsOfUnsupportedTypesAreNoFault)
@@ -221,8 +221,8 @@ TEST(ImportScene, BsdfsOfEveryKind)
     const auto& two = bsdf_of<TwoSidedBsdf>(loaded, 6);
     EXPECT_TRUE(std::holds_alternative<DiffuseBsdf>(loaded.scene.bsdfs[two.front].model));
     EXPECT_TRUE(std::holds_alternative<ConductorBsdf>(loaded.scene.bsdfs[two.back].model));
-    expect_near(bsdf_of<DiffuseBsdf>(loaded, 7).reflectance, {0.5f, 0.5f, 0.5f}, 0);
-    expect_near(bsdf_of<DiffuseBsdf>(loaded, 8).reflectance, {0, 0, 0}, 0);
+    expect_near(bsdf_of<DiffuseBsdf>(loaded, 7).reflectance.value, {0.5f, 0.5f, 0.5f}, 0);
+    expect_near(bsdf_of<DiffuseBsdf>(loaded, 8).reflectance.value, {0, 0, 0}, 0);
     // Mitsuba 0.6 makes a conductor of copper.
     const auto old = load_with(R"(<shape type="sphere"><bsdf type="conductor"/></shape>)", {}, "0.5.0");
     EXPECT_GT(bsdf_of<ConductorBsdf>(old, 0).k.x, 3.0f);
@@ -302,8 +302,8 @@ TEST(ImportScene, SpectraOfSamplesAndFiles)
     const auto loaded = folder.load(sundog::testing::scene_with(R"(
         <shape type="sphere"><bsdf type="diffuse"><spectrum name="reflectance" value="600:0, 610:0.9, 830:0.9"/></bsdf></shape>
         <shape type="sphere"><bsdf type="diffuse"><spectrum name="reflectance" filename="red.spd"/></bsdf></shape>)"));
-    const Vec3 inline_red = bsdf_of<DiffuseBsdf>(loaded, 0).reflectance;
-    EXPECT_EQ(inline_red, bsdf_of<DiffuseBsdf>(loaded, 1).reflectance);
+    const Vec3 inline_red = bsdf_of<DiffuseBsdf>(loaded, 0).reflectance.value;
+    EXPECT_EQ(inline_red, bsdf_of<DiffuseBsdf>(loaded, 1).reflectance.value);
     EXPECT_GT(inline_red.x, 5 * inline_red.y);
 }
 

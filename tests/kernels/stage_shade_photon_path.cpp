@@ -1,0 +1,78 @@
+// shade_photon_path against plain C++, vertex by vertex along real light paths, with photons straight from lights and without.
+#include "kernels/shading_fixture.h"
+#include "support/photon_cloud.h"
+
+namespace sundog
+{
+namespace
+{
+
+class ShadePhotonPath : public ShadingStage
+{
+protected:
+    // As if the paths had had so many edges before they set out.
+    void follow(bool direct_light, uint edges_before = 0)
+    {
+        start_light_paths();
+        auto states = paths_.download();
+        for (PathState& state : states) state.depth += edges_before;
+        paths_.upload(states);
+        auto deposits = allocate<Photon>(light_paths);
+        std::vector<Photon> got;
+        BuildOptions options = options_;
+        options.defines.emplace_back("DIRECT_LIGHT", direct_light ? "1" : "0");
+        const Kernel shade(device_, "shade_photon_path", "Shade", options);
+        follow_paths(
+            [&](std::size_t items) {
+                deposits.upload(std::vector<Photon>(light_paths, {{0, 0, 0}, untouched_flag, {0, 0, 0}, 0}));
+                shade(items, scene_.surfaces(), key_, rules(), light_paths, hits_, active_, active_count_, rays_, paths_, deposits, flags_);
+                got = deposits.download();
+            },
+            [&](std::size_t item, uint path, const PlainVertex& vertex) {
+                Doubt doubt;
+                const PlainOutcome expected = plain_photon_vertex(plain_, vertex, rules(), direct_light, light_numbers(path), doubt);
+                if (!is_certain(vertex, expected, doubt)) return;
+                expect_step(item, path, expected.next, expected.leaves_record);
+                if (expected.leaves_record) expect_photon(path, vertex, expected, got[item]);
+            });
+        expect_few_in_doubt();
+        if (GetParam().complete) expect_seen({"records"});
+        expect_all_surfaces_seen();
+    }
+
+    // Directions and normals are packed, with the errors that frame.h promises.
+    static void expect_photon(uint path, const PlainVertex& vertex, const PlainOutcome& expected, const Photon& photon)
+    {
+        expect_near("photon", path, photon.position, expected.surface->position, point_error);
+        expect_colour("flux", path, photon.flux, expected.flux);
+        EXPECT_LT(angle_between(unpacked_direction(photon.direction), -expected.surface->outgoing), 1e-4 + direction_error)
+            << "path " << path;
+        EXPECT_LT(angle_between(unpacked_normal(photon.normal_depth), expected.surface->normal_seen()), 1.2e-3 + direction_error)
+            << "path " << path;
+        EXPECT_EQ(photon.normal_depth >> PHOTON_DEPTH_SHIFT, std::min(vertex.path.depth, PHOTON_MAX_DEPTH)) << "path " << path;
+        // Only specular vertices since a point or a direction.
+        const bool unreached = (vertex.path.flags & PATH_FROM_DELTA_LIGHT) != 0 && vertex.path.scattered == 0;
+        EXPECT_EQ((photon.normal_depth & PHOTON_UNREACHED) != 0, unreached) << "path " << path;
+    }
+};
+
+TEST_P(ShadePhotonPath, WithDirectLightDoesAsPlainCode)
+{
+    follow(true);
+}
+
+TEST_P(ShadePhotonPath, WithoutDirectLightDoesAsPlainCode)
+{
+    follow(false);
+}
+
+// A photon has seven bits for its edges.
+TEST_P(ShadePhotonPath, LongPathsDoAsPlainCode)
+{
+    follow(true, 124);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, ShadePhotonPath, testing::ValuesIn(shading_cases()), case_name);
+
+} // namespace
+} // namespace sundog
