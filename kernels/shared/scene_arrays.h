@@ -25,7 +25,8 @@ SHARED_SIZE(SceneGlobals, 32);
 #define GEOMETRY_ARRAYS(X)                                                                         \
     X(BvhNode, bvh_nodes)                                                                          \
     X(BvhBlock, bvh_blocks)                                                                        \
-    X(AnalyticPrimitive, analytics)
+    X(AnalyticPrimitive, analytics)                                                                \
+    X(Instance, instances)
 
 #define SURFACE_ARRAYS(X)                                                                          \
     X(Triangle, triangles)                                                                         \

@@ -2,6 +2,7 @@
 
 #include "import/bsdf_import.h"
 #include "import/emitter_import.h"
+#include "import/instance_import.h"
 #include "import/integrator_import.h"
 #include "import/sensor_import.h"
 #include "import/shape_import.h"
@@ -27,7 +28,10 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
 
     TextureImporter textures(index, scene.textures);
     BsdfImporter bsdfs(index, textures, scene.bsdfs);
-    for (const auto& shape : root.nested("shape")) import_shape(*shape.object, index, bsdfs, scene);
+    InstanceImporter instances(index, bsdfs, scene);
+    for (const auto& shape : root.nested("shape"))
+        if (!instances.import(*shape.object)) import_shape(*shape.object, index, bsdfs, scene);
+    instances.finish();
     for (const auto& emitter : root.nested("emitter")) scene.emitters.push_back(import_emitter(*emitter.object, index));
 
     // Declared for those who refer to them, who complain about what they cannot use.

@@ -94,7 +94,6 @@ Cylinder import_cylinder(ObjectReader& reader)
 [[noreturn]] void refuse_by_name(const ObjectReader& reader)
 {
     constexpr const char* as_mesh = "convert it to a mesh (ply or obj)";
-    constexpr const char* as_copies = "give each copy a shape of its own, with the to_world of its instance";
     static const std::map<std::string, const char*> cures = {
         {"heightfield", as_mesh},
         {"hair", "make tubes of the strands, as a mesh (ply or obj)"},
@@ -104,13 +103,11 @@ Cylinder import_cylinder(ObjectReader& reader)
         {"ellipsoids", as_mesh},
         {"ellipsoidsmesh", as_mesh},
         {"deformable", "save the mesh of the wanted instant (ply or obj)"},
-        {"shapegroup", as_copies},
-        {"instance", as_copies},
         {"merge", "put its shapes into the scene themselves"},
     };
     const auto cure = cures.find(reader.type());
     if (cure != cures.end()) throw SceneError(reader.where(), "shape plugin '" + cure->first + "' is not supported: " + cure->second);
-    reader.unsupported("obj, ply, serialized, rectangle, cube, sphere, disk, cylinder");
+    reader.unsupported("obj, ply, serialized, rectangle, cube, sphere, disk, cylinder, shapegroup, instance");
 }
 
 class ShapeImport

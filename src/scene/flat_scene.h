@@ -9,6 +9,14 @@
 
 namespace sundog {
 
+// Consecutive primitives: those of the world, or of one group.
+struct PrimitiveRange {
+    uint first_triangle = 0;
+    uint triangle_count = 0;
+    uint first_analytic = 0;
+    uint analytic_count = 0;
+};
+
 struct FlatScene {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals; // one a position when any shape has them, else empty
@@ -19,6 +27,10 @@ struct FlatScene {
     std::vector<uint> texels;
     std::vector<Triangle> triangles;
     std::vector<AnalyticPrimitive> analytics;
+    PrimitiveRange world; // the first primitives; those of the groups follow, group by group
+    std::vector<PrimitiveRange> groups;
+    std::vector<Instance> instances; // all but root, center and radius, which follow from the hierarchy
+    std::vector<uint> instance_groups; // index into groups, one an instance
     std::vector<Shape> shapes;
     std::vector<Bsdf> bsdfs;
     std::vector<Light> lights;

@@ -6,6 +6,7 @@
 
 #include "base/errors.h"
 #include "math/bounds.h"
+#include "math/transform.h"
 #include "math/vec3.h"
 #include "shared/vec2.h"
 
@@ -195,6 +196,20 @@ struct ShapeDescription {
     std::variant<TriangleMesh, Sphere, Disk, Cylinder> geometry;
     uint bsdf = 0; // index into Scene::bsdfs
     std::optional<AreaEmitter> emitter;
+    std::optional<uint> group = std::nullopt; // index into Scene::groups of the one it belongs to; else it lies in the world
+};
+
+// Shapes that are seen only where an instance places a copy of them. They name their group; none of them emits light.
+struct ShapeGroup {
+    std::string id;
+    SourceLocation where;
+};
+
+struct InstanceDescription {
+    std::string id;
+    SourceLocation where;
+    uint group = 0; // index into Scene::groups
+    Transform to_world; // affine, not singular
 };
 
 struct PointEmitter {
@@ -287,14 +302,17 @@ struct Scene {
     std::string file;
     std::vector<TextureDescription> textures;
     std::vector<BsdfDescription> bsdfs;
-    std::vector<ShapeDescription> shapes;
+    std::vector<ShapeDescription> shapes; // of the world and of groups
+    std::vector<ShapeGroup> groups;
+    std::vector<InstanceDescription> instances;
     std::vector<EmitterDescription> emitters; // all but area emitters
     Sensor sensor;
     Film film;
     IntegratorRequest integrator;
 
-    std::size_t triangle_count() const;
-    Bounds bounds() const;
+    std::size_t triangle_count() const; // as stored: those of groups once
+    std::size_t triangle_count_with_copies() const; // as seen
+    Bounds bounds() const; // of all that is seen; around instances not tight
 };
 
 } // namespace sundog

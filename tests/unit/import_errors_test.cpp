@@ -124,7 +124,6 @@ const std::vector<Broken> broken_scenes = {
     {"Hair", 3, "hair' is not supported: make tubes", scene("\n<shape type=\"hair\"/>")},
     {"Curve", 2, "make tubes of the curves", scene("<shape type=\"bsplinecurve\"/>")},
     {"SignedDistances", 2, "extract the surface", scene("<shape type=\"sdfgrid\"/>")},
-    {"Instance", 2, "a shape of its own", scene("<shape type=\"instance\"/>")},
     {"ShapeWithoutType", 2, "attribute type", scene("<shape/>")},
     {"UnknownBsdf", 3, "bsdf plugin 'roughplastic' is not supported; supported are diffuse", bsdf("<bsdf type=\"roughplastic\"/>")},
     {"TwoBsdfs", 4, "only one <bsdf>", bsdf("<bsdf type=\"diffuse\"/>\n<bsdf type=\"diffuse\"/>")},
