@@ -29,10 +29,11 @@ static inline Ray distant_ray(const SurfaceView* scene, float3 direction, float2
     return emission_ray(unpack(scene->globals->center) + radius * (frame.s * d.x + frame.t * d.y - direction), direction);
 }
 
-// u: light, direction and position. [Veach 1997, section 8.3.1]
+// u: position, light, choice of a patch of an environment map. [Veach 1997, section 8.3.1]
 static inline EmissionSample sample_emission(const SurfaceView* scene, float4 u, float2 u_direction)
 {
-    const Light light = scene->lights[choose_light(scene, u.z)];
+    float rest = u.z;
+    const Light light = scene->lights[choose_light(scene, &rest)];
     const float3 emission = unpack(light.emission) / light.probability;
     const float disk_area = PI_F * scene->globals->radius * scene->globals->radius;
     EmissionSample sample;
@@ -58,6 +59,16 @@ static inline EmissionSample sample_emission(const SurfaceView* scene, float4 u,
         sample.ray = distant_ray(scene, sample_sphere(u_direction), u.xy);
         sample.flux = emission * (4.0f * PI_F * disk_area);
         break;
+#if LIGHT_OCCURS(LIGHT_ENVMAP)
+    case LIGHT_ENVMAP: {
+        const EnvironmentMap map = scene->environment_maps[light.primitive];
+        float3 direction;
+        const EnvironmentValue value = sample_environment_map(scene, &map, u_direction, u.w, &direction);
+        sample.ray = distant_ray(scene, -direction, u.xy);
+        sample.flux = value.pdf_w > 0.0f ? emission * value.radiance * (disk_area / value.pdf_w) : (float3)(0.0f);
+        break;
+    }
+#endif
     default: {
         const LightPoint point = sample_light_point(scene, &light, u.xy);
         const float3 direction = to_world(make_frame(point.normal), sample_cosine_hemisphere(u_direction));

@@ -3,8 +3,15 @@
 #define SUNDOG_SCENE_LIGHTS_H
 #include "math/frame.h"
 #include "math/warp.h"
+#include "scene/environment.h"
 #include "scene/surface.h"
 #include "shared/path.h"
+
+// -D LIGHT_TYPES: bit t is set where the scene has lights of type t; the others are compiled out, where that saves.
+#ifndef LIGHT_TYPES
+#define LIGHT_TYPES 0xffffffffu
+#endif
+#define LIGHT_OCCURS(type) ((LIGHT_TYPES >> (type)) & 1u)
 
 // A light as a shaded point sees it.
 typedef struct LightSample {
@@ -14,14 +21,17 @@ typedef struct LightSample {
     float pdf_w;      // 1/sr, the light's choice included; PDF_DELTA for point-like lights
 } LightSample;
 
-// Chooses a light by power with the alias table.
-static inline uint choose_light(const SurfaceView* scene, float u)
+// Chooses a light with the alias table; u becomes what is left of it, again uniform in [0, 1).
+static inline uint choose_light(const SurfaceView* scene, float* u)
 {
     const uint count = scene->globals->light_count;
-    const float scaled = u * (float)count;
+    const float scaled = *u * (float)count;
     const uint column = min((uint)scaled, count - 1u);
     const AliasEntry entry = scene->light_alias[column];
-    return scaled - (float)column < entry.threshold ? column : entry.alias;
+    const float rest = scaled - (float)column;
+    const bool kept = rest < entry.threshold;
+    *u = kept ? rest / entry.threshold : (rest - entry.threshold) / (1.0f - entry.threshold);
+    return kept ? column : entry.alias;
 }
 
 // A point on an area light, uniform in area.
@@ -146,7 +156,8 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
 // Samples the lights as seen from a surface. False: no light that way.
 static inline bool sample_light(const SurfaceView* scene, const Surface* surface, float4 u, LightSample* sample)
 {
-    const Light light = scene->lights[choose_light(scene, u.z)];
+    float rest = u.z;
+    const Light light = scene->lights[choose_light(scene, &rest)];
     switch (light.type) {
     case LIGHT_POINT:
     case LIGHT_SPOT: {
@@ -172,6 +183,16 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
         sample->radiance = unpack(light.emission) / sample->pdf_w;
         sample->shadow_ray = ray_from(surface, sample->direction);
         return true;
+#if LIGHT_OCCURS(LIGHT_ENVMAP)
+    case LIGHT_ENVMAP: {
+        const EnvironmentMap map = scene->environment_maps[light.primitive];
+        const EnvironmentValue value = sample_environment_map(scene, &map, u.xy, rest, &sample->direction);
+        sample->pdf_w = light.probability * value.pdf_w;
+        sample->radiance = unpack(light.emission) * value.radiance / sample->pdf_w;
+        sample->shadow_ray = ray_from(surface, sample->direction);
+        return value.pdf_w > 0.0f;
+    }
+#endif
     default: return sample_area_light(scene, surface, &light, u.xy, sample);
     }
 }
@@ -207,10 +228,25 @@ static inline float light_pdf_w(const SurfaceView* scene, const Surface* surface
     return pdf_w_from_a(light.probability / light.area, dot(to_light, to_light), fmax(cos_at_light, 1e-8f));
 }
 
-// The same for the constant environment.
-static inline float constant_light_pdf_w(const SurfaceView* scene)
+// Radiance of the environment from a direction (unit, away from the scene), and the density (1/sr) with which
+// sample_light would have chosen it. Both are zero without an environment.
+static inline EnvironmentValue environment_value(const SurfaceView* scene, float3 direction)
 {
-    return scene->lights[scene->globals->constant_light].probability * (0.25f * INV_PI_F);
+    EnvironmentValue value = {(float3)(0.0f), 0.0f};
+    const uint index = scene->globals->environment_light;
+    if (index == NO_LIGHT) return value;
+    const Light light = scene->lights[index];
+    value.radiance = (float3)(1.0f);
+    value.pdf_w = 0.25f * INV_PI_F;
+#if LIGHT_OCCURS(LIGHT_ENVMAP)
+    if (light.type == LIGHT_ENVMAP) {
+        const EnvironmentMap map = scene->environment_maps[light.primitive];
+        value = environment_map_value(scene, &map, direction);
+    }
+#endif
+    value.radiance *= unpack(light.emission);
+    value.pdf_w *= light.probability;
+    return value;
 }
 
 #endif

@@ -1,5 +1,5 @@
 // Light sources: one record for each emissive primitive, point, spot, direction
-// and environment, and the alias table that chooses among them by power.
+// and environment, and the alias table that chooses among them.
 #ifndef SUNDOG_SHARED_LIGHT_H
 #define SUNDOG_SHARED_LIGHT_H
 #include "shared/vec3.h"
@@ -13,15 +13,16 @@ SHARED_BEGIN
 #define LIGHT_DIRECTIONAL 5u // emission: irradiance across the direction (W/m^2)
 #define LIGHT_CONSTANT 6u    // emission: radiance from all directions (W/m^2/sr)
 #define LIGHT_CYLINDER 7u    // as LIGHT_TRIANGLE
+#define LIGHT_ENVMAP 8u      // emission: factor on the radiance of an EnvironmentMap
 
 // Whether paths can only start there, never arrive.
 #define LIGHT_IS_DELTA(type) ((type) == LIGHT_POINT || (type) == LIGHT_SPOT || (type) == LIGHT_DIRECTIONAL)
 
 typedef struct Light {
     uint type;
-    uint primitive;    // of an area light: as in Hit
+    uint primitive;    // of an area light: as in Hit; of an environment map: its index
     float probability; // of being chosen by the alias table
-    float area;        // of an area light (m^2)
+    float area;        // of an area light (m^2); of an environment map its mean luminance
     Vec3 emission;
     float cutoff_angle; // spot: no light beyond this angle (rad)
     Vec3 position;      // point and spot

@@ -1,6 +1,9 @@
 #include "import/emitter_import.h"
 
+#include "import/bitmap.h"
+
 #include <numbers>
+#include <utility>
 
 namespace sundog
 {
@@ -59,6 +62,44 @@ DirectionalEmitter read_directional(ObjectReader& reader)
     return emitter;
 }
 
+EnvironmentEmitter read_environment(ObjectReader& reader)
+{
+    EnvironmentEmitter emitter;
+    if (reader.has("bitmap")) throw SceneError(reader.where_of("bitmap"), "an envmap takes its image from a file: give <string name=\"filename\">");
+    const SourceLocation where = reader.where_of("filename");
+    const auto file = reader.index().find_file(reader.text("filename", ""), where);
+    if (reader.number("gamma", -1.0) != -1.0)
+        throw SceneError(reader.where_of("gamma"), "'gamma' of an envmap must be -1 (as the file says): convert the image");
+    bool cleaned = false;
+    emitter.image = std::make_shared<const TexelImage>(load_environment(file, where, cleaned));
+    if (cleaned) reader.index().warn(where, "values of '" + file.string() + "' that are negative or not finite count as 0");
+    emitter.scale = static_cast<float>(reader.number("scale", 1.0));
+    if (!(emitter.scale >= 0.0f)) throw SceneError(reader.where_of("scale"), "scale of an envmap must be >= 0");
+    const Transform to_world = reader.transform("to_world");
+    if (!to_world.uniform_scale()) throw SceneError(reader.where_of("to_world"), "to_world of an envmap may only rotate, reflect and scale evenly");
+    emitter.axis_x = normalize(to_world.vector({1, 0, 0}));
+    emitter.axis_y = normalize(to_world.vector({0, 1, 0}));
+    emitter.axis_z = normalize(to_world.vector({0, 0, 1}));
+    for (const char* name : {"mis_compensation", "cache"}) reader.ignore(name, "it does not change the image");
+    return emitter;
+}
+
+// Says, for emitters that are not supported, what to use instead.
+[[noreturn]] void refuse_type(const ObjectReader& reader)
+{
+    constexpr std::pair<const char*, const char*> cures[] = {
+        {"sky", "render it to a latitude-longitude image (Mitsuba does, with a spherical sensor) and use that in an envmap"},
+        {"sun", "use a directional emitter, or an envmap whose image has the sun in it"},
+        {"sunsky", "render it to a latitude-longitude image (Mitsuba does, with a spherical sensor) and use that in an envmap"},
+        {"collimated", "use a spot with a small cutoff_angle, or a directional emitter behind a hole"},
+        {"directionalarea", "use a directional emitter behind a hole of that shape"},
+        {"volumelight", "use an area emitter on the volume's surface"},
+    };
+    for (const auto& [type, cure] : cures)
+        if (reader.type() == type) throw SceneError(reader.where(), "emitter plugin '" + reader.type() + "' is not supported: " + cure);
+    reader.unsupported("area (inside a shape), point, spot, directional, constant, envmap");
+}
+
 } // namespace
 
 EmitterDescription import_emitter(const XmlElement& element, const SceneIndex& index)
@@ -75,10 +116,12 @@ EmitterDescription import_emitter(const XmlElement& element, const SceneIndex& i
         description.model = read_directional(reader);
     else if (type == "constant")
         description.model = ConstantEmitter{reader.color("radiance", {1, 1, 1}, ColorRole::emission)};
+    else if (type == "envmap")
+        description.model = read_environment(reader);
     else if (type == "area")
         throw SceneError(element.where, "an area emitter must be inside the <shape> that emits");
     else
-        reader.unsupported("area (inside a shape), point, spot, directional, constant");
+        refuse_type(reader);
     ignore_sampling_weight(reader);
     reader.finish();
     return description;
@@ -87,6 +130,7 @@ EmitterDescription import_emitter(const XmlElement& element, const SceneIndex& i
 AreaEmitter import_area_emitter(const XmlElement& element, const SceneIndex& index)
 {
     ObjectReader reader(element, index);
+    if (reader.type() == "directionalarea") refuse_type(reader);
     if (reader.type() != "area")
         throw SceneError(element.where, "emitter plugin '" + reader.type() + "' cannot be inside a shape: only area emitters can");
     const AreaEmitter emitter{reader.color("radiance", {1, 1, 1}, ColorRole::emission)};

@@ -1,5 +1,7 @@
 #include "scene/light_list.h"
 
+#include "scene/flatten_environment.h"
+
 #include <numbers>
 
 namespace sundog {
@@ -91,6 +93,18 @@ struct EmitterFlattener {
         light.emission = constant.radiance;
         return light;
     }
+    Light operator()(const EnvironmentEmitter& environment) const
+    {
+        Light light{};
+        light.type = LIGHT_ENVMAP;
+        light.primitive = append_environment(environment, where, flat);
+        light.emission = Vec3{1, 1, 1} * environment.scale;
+        light.area = static_cast<float>(mean_luminance(environment));
+        return light;
+    }
+
+    const SourceLocation& where;
+    FlatScene& flat;
 };
 
 // Flux (W) into the scene, whose bounding sphere's radius bounds what distant lights send.
@@ -104,8 +118,37 @@ double power_of(const Light& light, double scene_radius)
     case LIGHT_SPOT: return emission * 2.0 * pi * (1.0 - std::cos(0.5 * (static_cast<double>(light.cutoff_angle) + light.beam_width)));
     case LIGHT_DIRECTIONAL: return emission * disk;
     case LIGHT_CONSTANT: return emission * pi * 4.0 * disk;
+    case LIGHT_ENVMAP: return emission * static_cast<double>(light.area) * pi * 4.0 * disk;
     default: return emission * pi * static_cast<double>(light.area);
     }
+}
+
+// The chance of each light to be chosen: by power, but for emitter_floor of all choices, which go in equal parts to
+// the emitters and by power within each. So a lamp that is weak beside the sun still has photons for its caustic, a
+// mesh of many triangles counts as one, and noise rises by 1 / (1 - emitter_floor) at most. Nothing without any power.
+std::vector<double> light_chances(const std::vector<double>& powers, const std::vector<std::size_t>& emitter_starts)
+{
+    std::vector<double> emitter_powers(emitter_starts.size(), 0.0);
+    std::vector<std::size_t> emitter_of(powers.size());
+    for (std::size_t e = 0; e < emitter_starts.size(); e++) {
+        const std::size_t end = e + 1 < emitter_starts.size() ? emitter_starts[e + 1] : powers.size();
+        for (std::size_t i = emitter_starts[e]; i < end; i++) {
+            emitter_of[i] = e;
+            emitter_powers[e] += powers[i];
+        }
+    }
+    double total = 0.0, shining = 0.0;
+    for (const double power : emitter_powers) {
+        total += power;
+        shining += power > 0.0;
+    }
+    if (!(total > 0.0)) return {};
+    std::vector<double> chances(powers.size(), 0.0);
+    for (std::size_t i = 0; i < powers.size(); i++) {
+        if (powers[i] > 0.0)
+            chances[i] = (1.0 - emitter_floor) * powers[i] / total + emitter_floor / shining * powers[i] / emitter_powers[emitter_of[i]];
+    }
+    return chances;
 }
 
 } // namespace
@@ -142,21 +185,23 @@ std::vector<AliasEntry> make_alias_table(const std::vector<double>& weights, std
 void list_lights(const Scene& scene, FlatScene& flat)
 {
     list_area_lights(scene, flat);
-    flat.globals.constant_light = NO_LIGHT;
+    flat.globals.environment_light = NO_LIGHT;
+    std::vector<std::size_t> emitter_starts; // each emitter's first light
+    for (const Shape& shape : flat.shapes)
+        if (shape.first_light != NO_LIGHT) emitter_starts.push_back(shape.first_light);
     for (const auto& emitter : scene.emitters) {
-        if (std::holds_alternative<ConstantEmitter>(emitter.model)) flat.globals.constant_light = static_cast<uint>(flat.lights.size());
-        flat.lights.push_back(std::visit(EmitterFlattener{}, emitter.model));
+        emitter_starts.push_back(flat.lights.size());
+        flat.lights.push_back(std::visit(EmitterFlattener{emitter.where, flat}, emitter.model));
+        const uint type = flat.lights.back().type;
+        if (type == LIGHT_CONSTANT || type == LIGHT_ENVMAP) flat.globals.environment_light = static_cast<uint>(flat.lights.size() - 1);
     }
 
     std::vector<double> powers;
-    double total = 0.0;
-    for (const Light& light : flat.lights) {
-        powers.push_back(power_of(light, flat.globals.radius));
-        total += powers.back();
-    }
-    if (!(total > 0.0)) throw SceneError({scene.file, 0}, "no light has any power; add an <emitter> with a positive radiance or intensity");
+    for (const Light& light : flat.lights) powers.push_back(power_of(light, flat.globals.radius));
+    const std::vector<double> chances = light_chances(powers, emitter_starts);
+    if (chances.empty()) throw SceneError({scene.file, 0}, "no light has any power; add an <emitter> with a positive radiance or intensity");
     std::vector<float> probabilities;
-    flat.light_alias = make_alias_table(powers, probabilities);
+    flat.light_alias = make_alias_table(chances, probabilities);
     for (std::size_t i = 0; i < flat.lights.size(); i++) flat.lights[i].probability = probabilities[i];
     flat.globals.light_count = static_cast<uint>(flat.lights.size());
 }
