@@ -5,6 +5,7 @@
 #include "math/warp.h"
 #include "scene/environment.h"
 #include "scene/surface.h"
+#include "scene/texture.h"
 #include "shared/path.h"
 
 // -D LIGHT_TYPES: bit t is set where the scene has lights of type t; the others are compiled out, where that saves.
@@ -34,8 +35,20 @@ static inline uint choose_light(const SurfaceView* scene, float* u)
     return kept ? column : entry.alias;
 }
 
+// A light's emission times what its texture, if it has one, says at a surface.
+static inline float3 textured_emission(const SurfaceView* scene, const Light* light, const Surface* surface)
+{
+#if HAS_UV
+    const TexturedColor color = {light->emission, light->texture};
+    return textured_color(scene, color, surface);
+#else
+    return unpack(light->emission);
+#endif
+}
+
 // A point on an area light, uniform in area.
 typedef struct LightPoint {
+    float2 weights; // barycentric, of the second and third vertex
     float3 position;
     float3 normal;
     float offset; // as in Surface
@@ -50,6 +63,7 @@ static inline LightPoint sample_light_point(const SurfaceView* scene, const Ligh
         const float3 b = unpack(scene->positions[triangle.vertex[1]]);
         const float3 c = unpack(scene->positions[triangle.vertex[2]]);
         const float2 weights = sample_triangle(u);
+        point.weights = weights;
         point.position = a + (b - a) * weights.x + (c - a) * weights.y;
         point.normal = normalize(cross(b - a, c - a));
         point.offset = OFFSET_PER_COORDINATE * fmax(max_abs(a), fmax(max_abs(b), max_abs(c)));
@@ -78,12 +92,61 @@ static inline LightPoint sample_light_point(const SurfaceView* scene, const Ligh
     return point;
 }
 
+// Radiance of an area light at a point of it.
+static inline float3 light_point_radiance(const SurfaceView* scene, const Light* light, const LightPoint* point)
+{
+#if HAS_UV
+    if (light->texture != NO_TEXTURE) {
+        Surface surface;
+        surface.primitive = light->primitive;
+        const Hit hit = {0.0f, point->weights.x, point->weights.y, light->primitive};
+        if (light->type == LIGHT_TRIANGLE) triangle_surface(scene, hit, &surface);
+        else analytic_surface(scene, hit, point->position, &surface);
+        return textured_emission(scene, light, &surface);
+    }
+#endif
+    return unpack(light->emission);
+}
+
+// The texture of a spot or projector at the point (x, y) of its image, in [-1, 1]^2 (kernels/shared/light.h).
+static inline float3 projected_emission(const SurfaceView* scene, const Light* light, float2 place)
+{
+    Surface surface;
+    surface.primitive = ANALYTIC_BIT; // of no mesh
+#if HAS_UV
+    surface.uv = 0.5f - 0.5f * place;
+#endif
+    return textured_emission(scene, light, &surface);
+}
+
+// Where a direction with the given cosine to the light's axis meets its image.
+static inline float2 projected_place(const LightProjection* projection, float3 direction, float cosine)
+{
+    return (float2)(dot(direction, unpack(projection->axis_x)) / projection->half_width,
+                    dot(direction, unpack(projection->axis_y)) / projection->half_height) / cosine;
+}
+
 // Fall-off of a spot at `angle` from its axis: linear between beam width and cut-off, as in Mitsuba.
 static inline float spot_falloff(const Light* light, float cos_angle)
 {
     const float angle = acos(clamp(cos_angle, -1.0f, 1.0f));
     if (angle >= light->cutoff_angle) return 0.0f;
     return angle <= light->beam_width ? 1.0f : (light->cutoff_angle - angle) / (light->cutoff_angle - light->beam_width);
+}
+
+// Radiant intensity (W/sr) of a spot or projector in a direction (unit).
+static inline float3 projected_intensity(const SurfaceView* scene, const Light* light, float3 direction)
+{
+    const float cosine = dot(direction, unpack(light->direction));
+    const float falloff = light->type == LIGHT_SPOT ? spot_falloff(light, cosine) : 1.0f;
+    if (light->type == LIGHT_SPOT && light->texture == NO_TEXTURE) return unpack(light->emission) * falloff;
+    if (falloff == 0.0f || cosine < 1e-4f) return (float3)(0.0f);
+    const LightProjection projection = scene->light_projections[light->primitive];
+    const float2 place = projected_place(&projection, direction, cosine);
+    const float3 emission = projected_emission(scene, light, place) * falloff;
+    if (light->type == LIGHT_SPOT) return emission;
+    // E = I cos / r^2 at r = 1 / cos.
+    return fmax(fabs(place.x), fabs(place.y)) <= 1.0f ? emission / (cosine * cosine * cosine) : (float3)(0.0f);
 }
 
 static inline Ray segment(float3 from, float3 to)
@@ -137,7 +200,7 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
             sample->direction = direction;
             sample->pdf_w = light->probability / (2.0f * PI_F * one_minus_cos);
             sample->shadow_ray = segment_to(surface, direction, &point);
-            sample->radiance = unpack(light->emission) / sample->pdf_w;
+            sample->radiance = light_point_radiance(scene, light, &point) / sample->pdf_w;
             return true;
         }
     }
@@ -148,7 +211,7 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
     const float cos_at_light = -dot(sample->direction, point.normal);
     if (!(cos_at_light > 0.0f) || !(distance_squared > 0.0f)) return false;
     sample->pdf_w = pdf_w_from_a(light->probability / light->area, distance_squared, cos_at_light);
-    sample->radiance = unpack(light->emission) / sample->pdf_w;
+    sample->radiance = light_point_radiance(scene, light, &point) / sample->pdf_w;
     sample->shadow_ray = segment_to(surface, sample->direction, &point);
     return true;
 }
@@ -160,12 +223,13 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
     const Light light = scene->lights[choose_light(scene, &rest)];
     switch (light.type) {
     case LIGHT_POINT:
-    case LIGHT_SPOT: {
+    case LIGHT_SPOT:
+    case LIGHT_PROJECTOR: {
         const float3 to_light = unpack(light.position) - surface->position;
         const float distance_squared = dot(to_light, to_light);
         sample->direction = to_light * rsqrt(distance_squared);
         float3 intensity = unpack(light.emission);
-        if (light.type == LIGHT_SPOT) intensity *= spot_falloff(&light, -dot(sample->direction, unpack(light.direction)));
+        if (light.type != LIGHT_POINT) intensity = projected_intensity(scene, &light, -sample->direction);
         sample->radiance = intensity / (distance_squared * light.probability);
         sample->pdf_w = PDF_DELTA;
         sample->shadow_ray = segment(ray_origin(surface, sample->direction), unpack(light.position));
@@ -208,7 +272,9 @@ static inline uint light_of_hit(const SurfaceView* scene, const Surface* surface
 static inline float3 emitted_radiance(const SurfaceView* scene, const Surface* surface, uint light)
 {
     const bool front = dot(surface->geometric_normal, surface->outgoing) > 0.0f;
-    return light != NO_LIGHT && front ? unpack(scene->lights[light].emission) : (float3)(0.0f);
+    if (light == NO_LIGHT || !front) return (float3)(0.0f);
+    const Light source = scene->lights[light];
+    return textured_emission(scene, &source, surface);
 }
 
 // Density (1/sr) with which sample_light, at the ray's origin, would have chosen the direction that hit

@@ -41,6 +41,7 @@ SHARED_SIZE(SceneGlobals, 32);
     X(Bsdf, bsdfs)                                                                                 \
     X(Light, lights)                                                                               \
     X(AliasEntry, light_alias)                                                                     \
+    X(LightProjection, light_projections)                                                          \
     X(EnvironmentMap, environment_maps)                                                            \
     X(AliasEntry, environment_alias)
 

@@ -23,6 +23,7 @@ struct FlatScene {
     std::vector<Bsdf> bsdfs;
     std::vector<Light> lights;
     std::vector<AliasEntry> light_alias; // one a light
+    std::vector<LightProjection> light_projections;
     std::vector<EnvironmentMap> environment_maps; // at most one
     std::vector<AliasEntry> environment_alias; // one a patch
     SceneGlobals globals{}; // all but bvh_root

@@ -33,13 +33,22 @@ float area_of(const FlatScene& flat, const Triangle& triangle)
     return 0.5f * length(cross(flat.positions[triangle.vertex[1]] - a, flat.positions[triangle.vertex[2]] - a));
 }
 
+Light dark_light(uint type)
+{
+    Light light{};
+    light.type = type;
+    light.texture = NO_TEXTURE;
+    return light;
+}
+
 void list_area_lights(const Scene& scene, FlatScene& flat)
 {
     for (std::size_t i = 0; i < scene.shapes.size(); i++) {
         if (!scene.shapes[i].emitter) continue;
         Shape& shape = flat.shapes[i];
         shape.first_light = static_cast<uint>(flat.lights.size());
-        Light light{};
+        Light light = dark_light(LIGHT_TRIANGLE);
+        light.texture = scene.shapes[i].emitter->texture.value_or(NO_TEXTURE);
         light.emission = scene.shapes[i].emitter->radiance;
         if (const auto* mesh = std::get_if<TriangleMesh>(&scene.shapes[i].geometry)) {
             light.type = LIGHT_TRIANGLE;
@@ -61,16 +70,18 @@ void list_area_lights(const Scene& scene, FlatScene& flat)
 struct EmitterFlattener {
     Light operator()(const PointEmitter& point) const
     {
-        Light light{};
-        light.type = LIGHT_POINT;
+        Light light = dark_light(LIGHT_POINT);
         light.emission = point.intensity;
         light.position = point.position;
         return light;
     }
     Light operator()(const SpotEmitter& spot) const
     {
-        Light light{};
-        light.type = LIGHT_SPOT;
+        Light light = dark_light(LIGHT_SPOT);
+        light.texture = spot.texture.value_or(NO_TEXTURE);
+        // Negative: texture coordinates grow along the axes.
+        const float half = -std::tan(spot.cutoff_angle);
+        if (spot.texture) light.primitive = add_projection({spot.axis_x, half, spot.axis_y, half});
         light.emission = spot.intensity;
         light.position = spot.position;
         light.direction = spot.direction;
@@ -80,27 +91,42 @@ struct EmitterFlattener {
     }
     Light operator()(const DirectionalEmitter& directional) const
     {
-        Light light{};
-        light.type = LIGHT_DIRECTIONAL;
+        Light light = dark_light(LIGHT_DIRECTIONAL);
         light.emission = directional.irradiance;
         light.direction = directional.direction;
         return light;
     }
     Light operator()(const ConstantEmitter& constant) const
     {
-        Light light{};
-        light.type = LIGHT_CONSTANT;
+        Light light = dark_light(LIGHT_CONSTANT);
         light.emission = constant.radiance;
         return light;
     }
     Light operator()(const EnvironmentEmitter& environment) const
     {
-        Light light{};
-        light.type = LIGHT_ENVMAP;
+        Light light = dark_light(LIGHT_ENVMAP);
         light.primitive = append_environment(environment, where, flat);
         light.emission = Vec3{1, 1, 1} * environment.scale;
         light.area = static_cast<float>(mean_luminance(environment));
         return light;
+    }
+
+    Light operator()(const ProjectorEmitter& projector) const
+    {
+        Light light = dark_light(LIGHT_PROJECTOR);
+        light.primitive = add_projection({projector.axis_x, projector.half_width, projector.axis_y, projector.half_height});
+        light.texture = projector.texture.value_or(NO_TEXTURE);
+        light.emission = projector.irradiance;
+        light.position = projector.position;
+        light.direction = projector.axis_z;
+        light.area = 4.0f * projector.half_width * projector.half_height;
+        return light;
+    }
+
+    uint add_projection(LightProjection projection) const
+    {
+        flat.light_projections.push_back(projection);
+        return static_cast<uint>(flat.light_projections.size() - 1);
     }
 
     const SourceLocation& where;
@@ -118,6 +144,7 @@ double power_of(const Light& light, double scene_radius)
     case LIGHT_SPOT: return emission * 2.0 * pi * (1.0 - std::cos(0.5 * (static_cast<double>(light.cutoff_angle) + light.beam_width)));
     case LIGHT_DIRECTIONAL: return emission * disk;
     case LIGHT_CONSTANT: return emission * pi * 4.0 * disk;
+    case LIGHT_PROJECTOR: return emission * static_cast<double>(light.area);
     case LIGHT_ENVMAP: return emission * static_cast<double>(light.area) * pi * 4.0 * disk;
     default: return emission * pi * static_cast<double>(light.area);
     }

@@ -187,6 +187,7 @@ struct BsdfDescription {
 
 struct AreaEmitter {
     Vec3 radiance; // W/m^2/sr, from the normal's side
+    std::optional<uint> texture = std::nullopt; // factor on the radiance: an index into Scene::textures
 };
 
 struct ShapeDescription {
@@ -208,6 +209,21 @@ struct SpotEmitter {
     Vec3 intensity; // on the axis, W/sr
     float cutoff_angle; // rad
     float beam_width; // rad, <= cutoff_angle; linear fall-off in angle between the two
+    std::optional<uint> texture = std::nullopt; // factor on the intensity; fills the square about the cone
+    Vec3 axis_x{1, 0, 0}; // where the texture's u grows, unit length, orthogonal to the direction
+    Vec3 axis_y{0, 1, 0}; // where its v grows: down its image
+};
+
+// An image thrown like a camera's picture in reverse.
+struct ProjectorEmitter {
+    Vec3 position;
+    Vec3 axis_x{1, 0, 0}; // to the left of the image, unit length
+    Vec3 axis_y{0, 1, 0}; // up
+    Vec3 axis_z{0, 0, 1}; // of propagation
+    float half_width = 1.0f; // of the image on a plane one unit away
+    float half_height = 1.0f;
+    Vec3 irradiance; // W/m^2 on that plane
+    std::optional<uint> texture; // factor on it
 };
 
 struct DirectionalEmitter {
@@ -231,7 +247,7 @@ struct EnvironmentEmitter {
 
 struct EmitterDescription {
     SourceLocation where;
-    std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter, EnvironmentEmitter> model;
+    std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter, EnvironmentEmitter, ProjectorEmitter> model;
 };
 
 // --- Sensor and film ------------------------------------------------------------

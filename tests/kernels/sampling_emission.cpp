@@ -13,7 +13,7 @@ namespace
 
 using std::numbers::pi;
 
-constexpr int tests_in_file = 21;
+constexpr int tests_in_file = 22;
 constexpr uint samples = 100'000;
 
 struct Emission {
@@ -228,6 +228,21 @@ TEST_F(LightEmission, EnvironmentMap)
             EXPECT_TRUE(follows(grid.count(directions), grid.expected([&](Vec3d d) { return plain.density(d); }, samples, 24), tests_in_file, 5e-3));
         }
     }
+}
+
+// Uniform over the image that it throws on a plane one unit away.
+TEST_F(LightEmission, Projector)
+{
+    const ProjectorEmitter projector{.position = {1, 1, 1}, .half_width = 0.8f, .half_height = 0.5f, .irradiance = {3, 0, 0}, .texture = {}};
+    const Emission emission = emit(SceneBuilder().emitter(projector).shape(Sphere{{0, 0, 0}, 0.1f}).scene);
+    expect_power(emission, 3.0 * 4.0 * 0.8 * 0.5);
+    std::vector<double> counts(16 * 10, 0.0);
+    for (const Ray& ray : emission.rays) {
+        const double x = 0.5 + 0.5 * ray.direction.x / ray.direction.z / 0.8, y = 0.5 + 0.5 * ray.direction.y / ray.direction.z / 0.5;
+        ASSERT_TRUE(x > -1e-5 && x < 1.00001 && y > -1e-5 && y < 1.00001);
+        counts.at(static_cast<std::size_t>(std::clamp(x, 0.0, 0.99999) * 16) * 10 + static_cast<std::size_t>(std::clamp(y, 0.0, 0.99999) * 10)) += 1.0;
+    }
+    EXPECT_TRUE(is_uniform(counts, tests_in_file));
 }
 
 // Several lights together: the mean is the sum of powers, channel by channel.
