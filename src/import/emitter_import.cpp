@@ -118,9 +118,9 @@ EnvironmentEmitter read_environment(ObjectReader& reader)
 [[noreturn]] void refuse_type(const ObjectReader& reader)
 {
     constexpr std::pair<const char*, const char*> cures[] = {
-        {"sky", "render it to a latitude-longitude image (Mitsuba does, with a spherical sensor) and use that in an envmap"},
+        {"sky", "render it to a latitude-longitude image and use that in an envmap"},
         {"sun", "use a directional emitter, or an envmap whose image has the sun in it"},
-        {"sunsky", "render it to a latitude-longitude image (Mitsuba does, with a spherical sensor) and use that in an envmap"},
+        {"sunsky", "render it to a latitude-longitude image and use that in an envmap"},
         {"collimated", "use a spot with a small cutoff_angle, or a directional emitter behind a hole"},
         {"directionalarea", "use a directional emitter behind a hole of that shape"},
         {"volumelight", "use an area emitter on the volume's surface"},
