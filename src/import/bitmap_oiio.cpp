@@ -6,6 +6,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace sundog
@@ -68,14 +69,21 @@ std::vector<uint> pack_halves(const std::vector<float>& pixels, int channels, bo
     return texels;
 }
 
+std::unique_ptr<OIIO::ImageInput> open_plane(const std::filesystem::path& file, const SourceLocation& wanted_at)
+{
+    auto input = OIIO::ImageInput::open(file.string());
+    if (!input) unreadable(file, wanted_at, OIIO::geterror());
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) unreadable(file, wanted_at, "it has no pixels in a plane");
+    return input;
+}
+
 } // namespace
 
 TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& wanted_at, bool raw, bool& clipped)
 {
-    const auto input = OIIO::ImageInput::open(file.string());
-    if (!input) unreadable(file, wanted_at, OIIO::geterror());
+    const auto input = open_plane(file, wanted_at);
     const OIIO::ImageSpec& spec = input->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) unreadable(file, wanted_at, "it has no pixels in a plane");
     TexelImage image;
     image.width = spec.width;
     image.height = spec.height;
@@ -87,6 +95,31 @@ TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& 
     const bool encoded = !raw && !spec.format.is_floating_point();
     image.format = TexelFormat::half;
     image.texels = pack_halves(read_pixels<float>(*input, OIIO::TypeDesc::FLOAT, file, wanted_at), spec.nchannels, encoded, clipped);
+    return image;
+}
+
+TexelImage load_environment(const std::filesystem::path& file, const SourceLocation& wanted_at, bool& cleaned)
+{
+    const auto input = open_plane(file, wanted_at);
+    const OIIO::ImageSpec& spec = input->spec();
+    TexelImage image;
+    image.width = spec.width;
+    image.height = spec.height;
+    image.format = TexelFormat::float32;
+    const bool encoded = !spec.format.is_floating_point();
+    const auto pixels = read_pixels<float>(*input, OIIO::TypeDesc::FLOAT, file, wanted_at);
+    const auto rgb = rgb_of(spec.nchannels);
+    image.texels.reserve(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    for (std::size_t i = 0; i < pixels.size(); i += static_cast<std::size_t>(spec.nchannels)) {
+        for (const std::size_t channel : rgb) {
+            float value = encoded ? srgb_decode(pixels[i + channel]) : pixels[i + channel];
+            if (!(value >= 0.0f) || !std::isfinite(value)) {
+                cleaned = true;
+                value = 0.0f;
+            }
+            image.texels.push_back(std::bit_cast<uint>(value));
+        }
+    }
     return image;
 }
 

@@ -28,11 +28,11 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
 
     TextureImporter textures(index, scene.textures);
     BsdfImporter bsdfs(index, textures, scene.bsdfs);
-    InstanceImporter instances(index, bsdfs, scene);
+    InstanceImporter instances(index, bsdfs, textures, scene);
     for (const auto& shape : root.nested("shape"))
-        if (!instances.import(*shape.object)) import_shape(*shape.object, index, bsdfs, scene);
+        if (!instances.import(*shape.object)) import_shape(*shape.object, index, bsdfs, textures, scene);
     instances.finish();
-    for (const auto& emitter : root.nested("emitter")) scene.emitters.push_back(import_emitter(*emitter.object, index));
+    for (const auto& emitter : root.nested("emitter")) scene.emitters.push_back(import_emitter(*emitter.object, index, textures));
 
     // Declared for those who refer to them, who complain about what they cannot use.
     for (const char* tag : {"bsdf", "texture", "medium", "volume", "phase"}) root.nested(tag);
