@@ -33,7 +33,9 @@ struct Tree {
         if (child >= 0) {
             const BvhNode& node = bvh.nodes.at(static_cast<std::size_t>(child));
             for (int i = 0; i < BVH_WIDTH; i++)
-                visit(bvh, node.child[i], {{node.lower_x[i], node.lower_y[i], node.lower_z[i]}, {node.upper_x[i], node.upper_y[i], node.upper_z[i]}}, level + 1);
+                visit(bvh, node.child[i],
+                      {{node.lower_x[i], node.lower_y[i], node.lower_z[i]}, {node.upper_x[i], node.upper_y[i], node.upper_z[i]}},
+                      level + 1);
             return;
         }
         const uint code = static_cast<uint>(~child), blocks = (code >> 3 & 7) + (code & 7);
@@ -86,7 +88,9 @@ TEST(SceneBvh, TreesHoldTheirOwnPrimitives)
     for (uint i = 0; i < 7; i++) {
         const Bounds box = world.instances.at(i);
         for (Vec3 p : transformed(mesh, builder.scene.instances[i].to_world).positions)
-            EXPECT_TRUE(box.lower.x <= p.x && p.x <= box.upper.x && box.lower.y <= p.y && p.y <= box.upper.y && box.lower.z <= p.z && p.z <= box.upper.z) << i;
+            EXPECT_TRUE(box.lower.x <= p.x && p.x <= box.upper.x && box.lower.y <= p.y && p.y <= box.upper.y && box.lower.z <= p.z &&
+                        p.z <= box.upper.z)
+                << i;
     }
 }
 
