@@ -78,7 +78,7 @@ void InstanceImporter::import_member(const NestedObject& member, uint group)
     if (const auto emitter = ObjectReader(*member.object, index_).single("emitter"))
         throw SceneError(emitter->where, "a light cannot be inside a shapegroup: give each copy that emits a shape of its own");
     const std::size_t first = scene_.shapes.size();
-    import_shape(*member.object, index_, bsdfs_, scene_);
+    import_shape(*member.object, index_, bsdfs_, textures_, scene_);
     for (std::size_t i = first; i < scene_.shapes.size(); i++) scene_.shapes[i].group = group;
 }
 

@@ -12,7 +12,10 @@ namespace sundog
 class InstanceImporter
 {
 public:
-    InstanceImporter(const SceneIndex& index, BsdfImporter& bsdfs, Scene& scene) : index_(index), bsdfs_(bsdfs), scene_(scene) {}
+    InstanceImporter(const SceneIndex& index, BsdfImporter& bsdfs, TextureImporter& textures, Scene& scene)
+        : index_(index), bsdfs_(bsdfs), textures_(textures), scene_(scene)
+    {
+    }
 
     // Imports the shape if it is an instance, and notes it if it is a group; false for other shapes. Throws SceneError for
     // an instance that names no group, and for a group that is empty or holds a light, an instance or a group.
@@ -28,6 +31,7 @@ private:
 
     const SceneIndex& index_;
     BsdfImporter& bsdfs_;
+    TextureImporter& textures_;
     Scene& scene_;
     std::vector<const XmlElement*> declared_;
     std::map<const XmlElement*, uint> imported_;

@@ -6,6 +6,7 @@
 #include "import/integrator_import.h"
 #include "import/sensor_import.h"
 #include "import/shape_import.h"
+#include "import/texture_budget.h"
 #include "scene/validate.h"
 
 namespace sundog
@@ -27,11 +28,11 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
 
     TextureImporter textures(index, scene.textures);
     BsdfImporter bsdfs(index, textures, scene.bsdfs);
-    InstanceImporter instances(index, bsdfs, scene);
+    InstanceImporter instances(index, bsdfs, textures, scene);
     for (const auto& shape : root.nested("shape"))
-        if (!instances.import(*shape.object)) import_shape(*shape.object, index, bsdfs, scene);
+        if (!instances.import(*shape.object)) import_shape(*shape.object, index, bsdfs, textures, scene);
     instances.finish();
-    for (const auto& emitter : root.nested("emitter")) scene.emitters.push_back(import_emitter(*emitter.object, index));
+    for (const auto& emitter : root.nested("emitter")) scene.emitters.push_back(import_emitter(*emitter.object, index, textures));
 
     // Declared for those who refer to them, who complain about what they cannot use.
     for (const char* tag : {"bsdf", "texture", "medium", "volume", "phase"}) root.nested(tag);
@@ -47,6 +48,7 @@ LoadedScene load_scene(const std::filesystem::path& file, const LoadOptions& opt
     const XmlScene xml = read_scene_xml(file, options.defines, loaded.warnings);
     const SceneIndex index(xml, loaded.warnings);
     import_objects(xml, index, loaded.scene);
+    fit_texture_budget(loaded.scene, options.texture_bytes, loaded.warnings);
     validate_scene(loaded.scene, loaded.warnings);
     return loaded;
 }

@@ -113,8 +113,8 @@ Cylinder import_cylinder(ObjectReader& reader)
 class ShapeImport
 {
 public:
-    ShapeImport(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, Scene& scene)
-        : reader_(element, index), bsdfs_(bsdfs), scene_(scene)
+    ShapeImport(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, TextureImporter& textures, Scene& scene)
+        : reader_(element, index), bsdfs_(bsdfs), textures_(textures), scene_(scene)
     {
         const std::string* id = element.attribute("id");
         common_.id = id ? *id : "";
@@ -124,7 +124,7 @@ public:
     void run()
     {
         const std::string type = reader_.type();
-        if (const auto emitter = reader_.single("emitter")) common_.emitter = import_area_emitter(*emitter->object, reader_.index());
+        if (const auto emitter = reader_.single("emitter")) common_.emitter = import_area_emitter(*emitter->object, reader_.index(), textures_);
         const auto bsdf = reader_.single("bsdf");
         if (type == "obj" && !bsdf) {
             add_obj_with_materials();
@@ -185,15 +185,16 @@ private:
 
     ObjectReader reader_;
     BsdfImporter& bsdfs_;
+    TextureImporter& textures_;
     Scene& scene_;
     ShapeDescription common_;
 };
 
 } // namespace
 
-void import_shape(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, Scene& scene)
+void import_shape(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, TextureImporter& textures, Scene& scene)
 {
-    ShapeImport(element, index, bsdfs, scene).run();
+    ShapeImport(element, index, bsdfs, textures, scene).run();
 }
 
 } // namespace sundog

@@ -143,6 +143,13 @@ bool has_delta_lights(const FlatScene& flat)
     return std::any_of(flat.lights.begin(), flat.lights.end(), [](const Light& light) { return LIGHT_IS_DELTA(light.type); });
 }
 
+uint light_types(const FlatScene& flat)
+{
+    uint types = 0;
+    for (const Light& light : flat.lights) types |= 1u << light.type;
+    return types;
+}
+
 bool needs_texture_coordinates(const FlatScene& flat)
 {
     const auto anisotropic = [](const Bsdf& bsdf) { return bsdf.alpha_u.value != bsdf.alpha_v.value || bsdf.alpha_u.texture != bsdf.alpha_v.texture; };

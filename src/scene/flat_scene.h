@@ -35,6 +35,9 @@ struct FlatScene {
     std::vector<Bsdf> bsdfs;
     std::vector<Light> lights;
     std::vector<AliasEntry> light_alias; // one a light
+    std::vector<LightProjection> light_projections;
+    std::vector<EnvironmentMap> environment_maps; // at most one
+    std::vector<AliasEntry> environment_alias; // one a patch
     SceneGlobals globals{}; // all but bvh_root
 };
 
@@ -43,6 +46,9 @@ FlatScene flatten_scene(const Scene& scene);
 
 // Whether paths may start at a light that none can hit: points and directions.
 bool has_delta_lights(const FlatScene& flat);
+
+// Bit t is set where there are lights of type t: what kernels are specialised for.
+uint light_types(const FlatScene& flat);
 
 // Whether kernels need texture coordinates: for textures and anisotropic lobes.
 bool needs_texture_coordinates(const FlatScene& flat);

@@ -18,6 +18,7 @@ BuildOptions surface_options(const FlatScene& flat)
 {
     BuildOptions options;
     options.defines.emplace_back("BSDF_TYPES", std::to_string(bsdf_types(flat.bsdfs)) + "u");
+    options.defines.emplace_back("LIGHT_TYPES", std::to_string(light_types(flat)) + "u");
     options.defines.emplace_back("HAS_UV", needs_texture_coordinates(flat) ? "1" : "0");
     if (!flat.instances.empty()) options.defines.emplace_back("HAS_INSTANCES", "1");
     return options;
