@@ -112,7 +112,7 @@ TexelImage load_environment(const std::filesystem::path& file, const SourceLocat
     image.texels.reserve(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     for (std::size_t i = 0; i < pixels.size(); i += static_cast<std::size_t>(spec.nchannels)) {
         for (const std::size_t channel : rgb) {
-            float value = encoded ? srgb_decode(pixels[i + channel]) : pixels[i + channel];
+            float value = encoded ? linear_from_srgb(pixels[i + channel]) : pixels[i + channel];
             if (!(value >= 0.0f) || !std::isfinite(value)) {
                 cleaned = true;
                 value = 0.0f;
