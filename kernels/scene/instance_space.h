@@ -12,7 +12,10 @@ static inline bool is_instance_leaf(uint code)
     return code != 0u && (code & ((1u << (2 * BVH_LEAF_BLOCK_BITS)) - 1u)) == 0u;
 }
 
-static inline uint instance_of_leaf(uint code) { return (code >> (2 * BVH_LEAF_BLOCK_BITS)) - 1u; }
+static inline uint instance_of_leaf(uint code)
+{
+    return (code >> (2 * BVH_LEAF_BLOCK_BITS)) - 1u;
+}
 
 static inline float3 to_world_vector(__global const Instance* instance, float3 v)
 {

@@ -36,14 +36,16 @@ bool InstanceImporter::import(const XmlElement& element)
 void InstanceImporter::finish() const
 {
     for (const XmlElement* group : declared_)
-        if (!imported_.contains(group)) index_.warn(group->where, "shapegroup '" + id_of(*group) + "' has no instance: nothing of it is seen");
+        if (!imported_.contains(group))
+            index_.warn(group->where, "shapegroup '" + id_of(*group) + "' has no instance: nothing of it is seen");
 }
 
 void InstanceImporter::import_instance(const XmlElement& element)
 {
     ObjectReader reader(element, index_);
     const auto group = reader.single("shape");
-    if (!group) throw SceneError(element.where, "the instance names no shapegroup: add <ref id=\"...\"/>, the id being that of a shapegroup");
+    if (!group)
+        throw SceneError(element.where, "the instance names no shapegroup: add <ref id=\"...\"/>, the id being that of a shapegroup");
     if (!is_type(*group->object, "shapegroup"))
         throw SceneError(group->where, "an instance needs a shapegroup: put the shape into one, and refer to that");
     InstanceDescription instance;

@@ -61,7 +61,8 @@ double error_growth(const Instance& instance)
 Vec3 to_world(const Instance& instance, Vec3 p)
 {
     const auto along = [&](Vec3 row, float offset) {
-        return static_cast<float>(static_cast<double>(row.x) * p.x + static_cast<double>(row.y) * p.y + static_cast<double>(row.z) * p.z + offset);
+        return static_cast<float>(static_cast<double>(row.x) * p.x + static_cast<double>(row.y) * p.y + static_cast<double>(row.z) * p.z +
+                                  offset);
     };
     return {along(instance.to_world[0], instance.translation.x), along(instance.to_world[1], instance.translation.y),
             along(instance.to_world[2], instance.translation.z)};
@@ -73,7 +74,8 @@ Bounds box_of(const Instance& instance, const std::vector<Bounds>& boxes, float 
     Bounds all;
     for (const Bounds& b : boxes)
         for (unsigned corner = 0; corner < 8; corner++)
-            all.extend(to_world(instance, {corner & 1 ? b.upper.x : b.lower.x, corner & 2 ? b.upper.y : b.lower.y, corner & 4 ? b.upper.z : b.lower.z}));
+            all.extend(to_world(
+                instance, {corner & 1 ? b.upper.x : b.lower.x, corner & 2 ? b.upper.y : b.lower.y, corner & 4 ? b.upper.z : b.lower.z}));
     const double distance = 2.0 * scene_radius + magnitude(all.center() - instance.translation) + 0.5 * magnitude(all.extent());
     const double coordinates = std::max(magnitude(all.lower), magnitude(all.upper));
     const auto room = static_cast<float>(transform_error * error_growth(instance) * distance + 0x1p-22 * coordinates);

@@ -118,7 +118,7 @@ protected:
         for (uint i = 0; i < count; ++i) {
             float b = unit(random), c = unit(random);
             if (b + c > 1.0f) b = 1.0f - b, c = 1.0f - c;
-            hits.push_back({1.0f, b, c, 2 + i % 2, 0}); // two triangles lie before the mesh's
+            hits.push_back({1.0f, b, c, 2 + i % 2, NO_INSTANCE}); // two triangles lie before the mesh's
         }
         const Kernel kernel = test_kernel(R"(
             #include "scene/texture.h"
