@@ -15,4 +15,8 @@ namespace sundog
 // build, always.
 TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& wanted_at, bool raw, bool& clipped);
 
+// The bytes of a file that load_bitmap() reads as the same texels: PNG for 8 bits a channel (raw, if linear), EXR for half
+// floats. `file` is for messages. Throws FileError; in a minimal build, always.
+std::string encode_bitmap(const TexelImage& image, const std::filesystem::path& file);
+
 } // namespace sundog

@@ -8,4 +8,9 @@ TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& 
     throw SceneError(wanted_at, "'" + file.string() + "': this build of Sundog reads no bitmaps; build without SUNDOG_MINIMAL");
 }
 
+std::string encode_bitmap(const TexelImage&, const std::filesystem::path& file)
+{
+    throw FileError(file.string() + ": this build of Sundog writes no bitmaps; build without SUNDOG_MINIMAL");
+}
+
 } // namespace sundog

@@ -2,6 +2,7 @@
 
 #include "scene/spectrum.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -15,6 +16,8 @@ namespace
 {
 
 constexpr float largest_half = 65504.0f;
+constexpr long long max_texels = 1LL << 28;
+constexpr int max_channels = 64;
 
 [[noreturn]] void unreadable(const std::filesystem::path& file, const SourceLocation& wanted_at, std::string reason)
 {
@@ -72,6 +75,18 @@ std::vector<uint> pack_halves(const std::vector<float>& pixels, int channels, bo
     return texels;
 }
 
+// Red, green and blue of all texels.
+template <class T> std::vector<T> unpack(const TexelImage& image)
+{
+    constexpr std::size_t bits = 8 * sizeof(T);
+    const std::size_t words = image.words_per_texel();
+    std::vector<T> pixels;
+    pixels.reserve(3 * image.texels.size() / words);
+    for (std::size_t i = 0; i < image.texels.size(); i += words)
+        for (std::size_t c = 0; c < 3; c++) pixels.push_back(static_cast<T>(image.texels[i + c * bits / 32] >> (c * bits % 32)));
+    return pixels;
+}
+
 } // namespace
 
 TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& wanted_at, bool raw, bool& clipped)
@@ -80,6 +95,9 @@ TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& 
     if (!input) unreadable(file, wanted_at, OIIO::geterror());
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) unreadable(file, wanted_at, "it has no pixels in a plane");
+    // A few kilobytes of PNG can claim, and hold, gigabytes of pixels.
+    if (static_cast<long long>(spec.width) * spec.height > max_texels || spec.nchannels > max_channels)
+        unreadable(file, wanted_at, "it has more than 2^28 pixels or 64 channels");
     TexelImage image;
     image.width = spec.width;
     image.height = spec.height;
@@ -92,6 +110,28 @@ TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& 
     image.format = TexelFormat::half;
     image.texels = pack_halves(read_pixels<float>(*input, OIIO::TypeDesc::FLOAT, file, wanted_at), spec.nchannels, encoded, clipped);
     return image;
+}
+
+std::string encode_bitmap(const TexelImage& image, const std::filesystem::path& file)
+{
+    const bool half = image.format == TexelFormat::half;
+    const OIIO::TypeDesc type = half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::UINT8;
+    OIIO::ImageSpec spec(image.width, image.height, 3, type);
+    spec.attribute("DateTime", ""); // else OpenImageIO adds the time, and no two files are the same
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create(half ? "openexr" : "png");
+    const bool opened = output && output->set_ioproxy(&memory) && output->open(file.filename().string(), spec);
+    bool done = opened;
+    if (opened && half) {
+        const std::vector<unsigned short> pixels = unpack<unsigned short>(image);
+        done = output->write_image(type, pixels.data()) && output->close();
+    } else if (opened) {
+        const std::vector<unsigned char> pixels = unpack<unsigned char>(image);
+        done = output->write_image(type, pixels.data()) && output->close();
+    }
+    if (!done) throw FileError(file.string() + ": cannot encode the image: " + (output ? output->geterror() : OIIO::geterror()));
+    return {bytes.begin(), bytes.end()};
 }
 
 } // namespace sundog

@@ -1,5 +1,7 @@
 #include "import/emitter_import.h"
 
+#include "math/direction.h"
+
 #include <numbers>
 
 namespace sundog
@@ -31,7 +33,7 @@ SpotEmitter read_spot(ObjectReader& reader)
     SpotEmitter emitter;
     const Transform to_world = reader.transform("to_world");
     emitter.position = to_world.point({0, 0, 0});
-    emitter.direction = normalize(to_world.vector({0, 0, 1}));
+    emitter.direction = direction_of(to_world.vector({0, 0, 1}));
     emitter.intensity = reader.color("intensity", {1, 1, 1}, ColorRole::emission);
     reader.refuse("texture", "remove it");
     const double cutoff = reader.number("cutoff_angle", 20.0);
@@ -52,9 +54,8 @@ DirectionalEmitter read_directional(ObjectReader& reader)
         throw SceneError(reader.where_of("to_world"), "give a directional emitter either direction or to_world, not both");
     const Transform to_world = reader.transform("to_world");
     const Vec3 direction = reader.vector("direction").value_or(to_world.vector({0, 0, 1}));
-    const double length = std::hypot(direction.x, direction.y, direction.z);
-    if (!(length > 0.0)) throw SceneError(reader.where_of("direction"), "direction of a directional emitter must not be zero");
-    emitter.direction = direction / static_cast<float>(length);
+    if (direction == Vec3{0, 0, 0}) throw SceneError(reader.where_of("direction"), "direction of a directional emitter must not be zero");
+    emitter.direction = direction_of(direction);
     emitter.irradiance = reader.color("irradiance", {1, 1, 1}, ColorRole::emission);
     return emitter;
 }

@@ -28,7 +28,7 @@ std::string quoted_list(const std::set<std::string>& names)
 class SceneReader
 {
 public:
-    SceneReader(const std::map<std::string, std::string>& defines, std::vector<std::string>& warnings)
+    SceneReader(const std::map<std::string, std::string>& defines, std::vector<Warning>& warnings)
         : parameters_(defines), defines_(defines), warnings_(warnings)
     {
         for (const auto& [name, value] : defines)
@@ -212,7 +212,7 @@ private:
 
     std::map<std::string, std::string> parameters_;
     const std::map<std::string, std::string>& defines_;
-    std::vector<std::string>& warnings_;
+    std::vector<Warning>& warnings_;
     std::set<std::string> known_; // parameters that some <default> or $name mentions
     std::vector<std::filesystem::path> open_files_;
     std::size_t element_count_ = 0;
@@ -236,7 +236,7 @@ std::string XmlElement::parameter_name() const
 }
 
 XmlScene read_scene_xml(const std::filesystem::path& file, const std::map<std::string, std::string>& defines,
-                        std::vector<std::string>& warnings)
+                        std::vector<Warning>& warnings)
 {
     return SceneReader(defines, warnings).read(file);
 }

@@ -151,7 +151,7 @@ const std::vector<Broken> broken_scenes = {
      bsdf("<bsdf type=\"conductor\"><string name=\"material\" value=\"Au\"/><float name=\"eta\" value=\"1\"/></bsdf>")},
     {"EmptyTwoSided", 3, "twosided", bsdf("<bsdf type=\"twosided\"/>")},
     {"TwoSidedGlass", 3, "transmits", bsdf("<bsdf type=\"twosided\"><bsdf type=\"dielectric\"/></bsdf>")},
-    {"TwoSidedTwice", 3, "another", bsdf("<bsdf type=\"twosided\" id=\"t\"><ref id=\"t\"/></bsdf>")},
+    {"TwoSidedTwice", 3, "contains itself", bsdf("<bsdf type=\"twosided\" id=\"t\"><ref id=\"t\"/></bsdf>")},
     {"HideEmitters", 2, "hide_emitters", scene("<integrator type=\"path\"><boolean name=\"hide_emitters\" value=\"true\"/></integrator>")},
     {"TwoIntegrators", 3, "only one <integrator>", scene("<integrator type=\"path\"/>\n<integrator type=\"sppm\"/>")},
     {"LooseFilm", 2, "film plugin 'hdrfilm'", scene("<film type=\"hdrfilm\"/>")},
