@@ -34,6 +34,8 @@ void write_integrator(ObjectWriter root, const IntegratorRequest& request)
 
 std::string write_scene(const Scene& scene, const std::filesystem::path& files)
 {
+    // Names every member, so that one that is added to Scene does not compile until it is written here.
+    const auto& [file, all_textures, all_bsdfs, shapes, emitters, sensor, film, integrator] = scene;
     pugi::xml_document document;
     pugi::xml_node node = document.append_child("scene");
     node.append_attribute("version").set_value("3.0.0");
@@ -41,7 +43,7 @@ std::string write_scene(const Scene& scene, const std::filesystem::path& files)
     WrittenFiles written(files);
     WrittenIds ids;
 
-    write_integrator(root, scene.integrator);
+    write_integrator(root, integrator);
     write_sensor(root, scene);
     TextureWriter textures(scene, ids, written);
     textures.write_all(root);

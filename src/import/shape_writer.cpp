@@ -130,11 +130,12 @@ void write_emitter(ObjectWriter shape, const AreaEmitter& emitter)
 void write_shapes(ObjectWriter root, const Scene& scene, WrittenIds& ids, const BsdfWriter& bsdfs, WrittenFiles& files)
 {
     for (std::size_t i = 0; i < scene.shapes.size(); i++) {
-        const ShapeDescription& shape = scene.shapes[i];
-        ShapeWriter writer(root, files, i, ids.add(shape.id, "shape", i));
-        ObjectWriter object = std::visit([&](const auto& geometry) { return writer.write(geometry); }, shape.geometry);
-        object.reference(bsdfs.id(shape.bsdf));
-        if (shape.emitter) write_emitter(object, *shape.emitter);
+        // All members, so that one that is added does not compile until it is written here.
+        const auto& [id, where, geometry, bsdf, emitter] = scene.shapes[i];
+        ShapeWriter writer(root, files, i, ids.add(id, "shape", i));
+        ObjectWriter object = std::visit([&](const auto& alternative) { return writer.write(alternative); }, geometry);
+        object.reference(bsdfs.id(bsdf));
+        if (emitter) write_emitter(object, *emitter);
     }
 }
 
