@@ -81,6 +81,8 @@ void print_text(const SceneSummary& summary, const LoadReport& report)
     const auto line = [](const char* name, const std::string& value) { std::cout << fmt::format("{:<14}{}\n", name, value); };
     line("scene", summary.file);
     line("shapes", counts_text(summary.shapes) + fmt::format("; {} triangles", summary.triangles));
+    if (summary.instances > 0)
+        line("instances", fmt::format("{} of {} groups; {} triangles with their copies", summary.instances, summary.groups, summary.triangles_with_copies));
     line("bsdfs", counts_text(summary.bsdfs));
     line("emitters", counts_text(summary.emitters) + fmt::format("; {} lights to sample", summary.lights));
     line("bounds", summary.bounds.empty() ? "empty" : point_text(summary.bounds.lower) + " to " + point_text(summary.bounds.upper));
@@ -104,6 +106,9 @@ void print_json(const SceneSummary& summary, const LoadReport& report)
     json["scene"] = summary.file;
     json["shapes"] = summary.shapes;
     json["triangles"] = summary.triangles;
+    json["groups"] = summary.groups;
+    json["instances"] = summary.instances;
+    json["triangles_with_copies"] = summary.triangles_with_copies;
     json["bsdfs"] = summary.bsdfs;
     json["emitters"] = summary.emitters;
     json["lights"] = summary.lights;

@@ -35,7 +35,7 @@ void write_integrator(ObjectWriter root, const IntegratorRequest& request)
 std::string write_scene(const Scene& scene, const std::filesystem::path& files)
 {
     // Names every member, so that one that is added to Scene does not compile until it is written here.
-    const auto& [file, all_textures, all_bsdfs, shapes, emitters, sensor, film, integrator] = scene;
+    const auto& [file, all_textures, all_bsdfs, shapes, groups, instances, emitters, sensor, film, integrator] = scene;
     pugi::xml_document document;
     pugi::xml_node node = document.append_child("scene");
     node.append_attribute("version").set_value("3.0.0");
@@ -49,8 +49,9 @@ std::string write_scene(const Scene& scene, const std::filesystem::path& files)
     textures.write_all(root);
     const BsdfWriter bsdfs(scene, ids, textures);
     bsdfs.write_all(root);
-    write_shapes(root, scene, ids, bsdfs, written);
-    write_emitters(root, scene);
+    write_shapes(root, scene, ids, textures, bsdfs, written);
+    write_emitters(root, scene, textures, written);
+    textures.check_all_used();
 
     std::ostringstream text;
     document.save(text, "    ");

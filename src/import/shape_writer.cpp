@@ -120,23 +120,90 @@ private:
     std::string id_;
 };
 
-void write_emitter(ObjectWriter shape, const AreaEmitter& emitter)
+// The shapes, groups and instances of a scene. A reader imports a group for its first instance, so that its shapes come
+// after those that are before that instance: the first shape of a group is where the instance was.
+class ShapesWriter
 {
-    shape.object("emitter", "area").color("radiance", emitter.radiance);
-}
+public:
+    ShapesWriter(ObjectWriter root, const Scene& scene, WrittenIds& ids, const TextureWriter& textures, const BsdfWriter& bsdfs,
+                 WrittenFiles& files)
+        : root_(root), scene_(scene), ids_(ids), textures_(textures), bsdfs_(bsdfs), files_(files), groups_(scene.groups.size())
+    {
+    }
+
+    void write()
+    {
+        for (std::size_t i = 0; i < scene_.shapes.size(); i++) {
+            const auto group = scene_.shapes[i].group;
+            write_shape(group ? group_object(*group) : root_, i);
+        }
+        while (next_instance_ < scene_.instances.size()) write_instance();
+    }
+
+private:
+    struct Group {
+        std::string id;
+        std::optional<ObjectWriter> object;
+    };
+
+    ObjectWriter group_object(uint index)
+    {
+        Group& group = groups_[index];
+        if (!group.object) {
+            const auto& [id, where] = scene_.groups[index]; // all members, as below
+            group.id = ids_.add(id, "group", index);
+            group.object = root_.object("shape", "shapegroup", "", group.id);
+            bool first = false;
+            while (!first && next_instance_ < scene_.instances.size()) {
+                first = scene_.instances[next_instance_].group == index;
+                write_instance();
+            }
+        }
+        return *group.object;
+    }
+
+    void write_instance()
+    {
+        const auto& [id, where, group, to_world] = scene_.instances[next_instance_];
+        if (!groups_[group].object) throw SceneError(where, "--dump cannot write an instance whose group is empty or comes later");
+        ObjectWriter object = root_.object("shape", "instance", "", ids_.add(id, "instance", next_instance_));
+        object.reference(groups_[group].id);
+        object.transform("to_world", to_world);
+        next_instance_++;
+    }
+
+    void write_shape(ObjectWriter parent, std::size_t i)
+    {
+        // All members, so that one that is added does not compile until it is written here.
+        const auto& [id, where, geometry, bsdf, emitter, group] = scene_.shapes[i];
+        ShapeWriter writer(parent, files_, i, ids_.add(id, "shape", i));
+        ObjectWriter object = std::visit([&](const auto& alternative) { return writer.write(alternative); }, geometry);
+        object.reference(bsdfs_.id(bsdf));
+        if (emitter) write_emitter(object, *emitter);
+    }
+
+    void write_emitter(ObjectWriter shape, const AreaEmitter& emitter)
+    {
+        const auto& [radiance, texture] = emitter;
+        textures_.color(shape.object("emitter", "area"), "radiance", texture ? ColorSource(radiance, *texture) : ColorSource(radiance));
+    }
+
+    ObjectWriter root_;
+    const Scene& scene_;
+    WrittenIds& ids_;
+    const TextureWriter& textures_;
+    const BsdfWriter& bsdfs_;
+    WrittenFiles& files_;
+    std::vector<Group> groups_; // as scene_.groups
+    std::size_t next_instance_ = 0;
+};
 
 } // namespace
 
-void write_shapes(ObjectWriter root, const Scene& scene, WrittenIds& ids, const BsdfWriter& bsdfs, WrittenFiles& files)
+void write_shapes(ObjectWriter root, const Scene& scene, WrittenIds& ids, const TextureWriter& textures, const BsdfWriter& bsdfs,
+                  WrittenFiles& files)
 {
-    for (std::size_t i = 0; i < scene.shapes.size(); i++) {
-        // All members, so that one that is added does not compile until it is written here.
-        const auto& [id, where, geometry, bsdf, emitter] = scene.shapes[i];
-        ShapeWriter writer(root, files, i, ids.add(id, "shape", i));
-        ObjectWriter object = std::visit([&](const auto& alternative) { return writer.write(alternative); }, geometry);
-        object.reference(bsdfs.id(bsdf));
-        if (emitter) write_emitter(object, *emitter);
-    }
+    ShapesWriter(root, scene, ids, textures, bsdfs, files).write();
 }
 
 } // namespace sundog

@@ -6,7 +6,9 @@
 namespace sundog
 {
 
-// In their order, by which their BSDFs are numbered when they are read again.
-void write_shapes(ObjectWriter root, const Scene& scene, WrittenIds& ids, const BsdfWriter& bsdfs, WrittenFiles& files);
+// With the groups and their instances, in the order in which all are numbered when they are read again, as are textures
+// and BSDFs by their first use.
+void write_shapes(ObjectWriter root, const Scene& scene, WrittenIds& ids, const TextureWriter& textures, const BsdfWriter& bsdfs,
+                  WrittenFiles& files);
 
 } // namespace sundog

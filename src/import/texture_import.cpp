@@ -78,6 +78,11 @@ NumberSource TextureImporter::number(ObjectReader& reader, std::string_view name
     return static_cast<float>(value);
 }
 
+double TextureImporter::aspect(uint texture) const
+{
+    return textures_.at(texture).aspect();
+}
+
 ColorSource TextureImporter::import(const XmlElement& element)
 {
     if (const auto found = imported_.find(&element); found != imported_.end()) return found->second;

@@ -58,7 +58,7 @@ Vec3 color_of_luminance(float wanted)
 
 } // namespace
 
-TextureWriter::TextureWriter(const Scene& scene, WrittenIds& ids, WrittenFiles& files) : scene_(scene), files_(files)
+TextureWriter::TextureWriter(const Scene& scene, WrittenIds& ids, WrittenFiles& files) : scene_(scene), files_(files), used_(scene.textures.size())
 {
     for (std::size_t i = 0; i < scene.textures.size(); i++) ids_.push_back(ids.add(scene.textures[i].id, "texture", i));
 }
@@ -69,6 +69,14 @@ void TextureWriter::write_all(ObjectWriter root)
         const TextureDescription& texture = scene_.textures[i];
         std::visit([&](const auto& model) { write(root, ids_[i], texture, model); }, texture.model);
     }
+}
+
+void TextureWriter::check_all_used() const
+{
+    for (std::size_t i = 0; i < used_.size(); i++)
+        if (!used_[i])
+            throw SceneError(scene_.textures[i].where,
+                             "--dump cannot write a texture of nothing but lights that emit nothing: remove the texture, or those lights");
 }
 
 void TextureWriter::write(ObjectWriter root, const std::string& id, const TextureDescription& texture, const BitmapTexture& bitmap)
@@ -99,6 +107,7 @@ void TextureWriter::write(ObjectWriter root, const std::string& id, const Textur
 
 void TextureWriter::scaled(ObjectWriter object, const char* name, uint texture, Vec3 factor) const
 {
+    used_[texture] = true;
     if (factor == Vec3{1, 1, 1}) {
         object.reference(ids_[texture], name);
         return;

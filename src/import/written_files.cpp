@@ -16,7 +16,7 @@ std::string WrittenFiles::add_image(const std::shared_ptr<const TexelImage>& ima
 {
     std::string& name = images_[image.get()];
     if (name.empty()) {
-        const std::string ending = image->format == TexelFormat::half ? ".exr" : ".png";
+        const std::string ending = image->words_per_texel() > 1 ? ".exr" : ".png";
         const std::string file = "image-" + std::to_string(images_.size() - 1) + ending;
         name = add(file, encode_bitmap(*image, folder_ / file));
     }

@@ -213,6 +213,45 @@ TEST(SceneWriter, Bitmaps)
     EXPECT_THAT(xml, ::testing::HasSubstr(".exr"));
     EXPECT_THAT(xml, ::testing::Not(::testing::HasSubstr("image-4"))) << "an image that several textures share is written once";
 }
+
+TEST(SceneWriter, EnvironmentMaps)
+{
+    const SceneFolder folder;
+    folder.write("b.ppm", "P3\n3 2\n255\n1 2 3 40 50 60 255 0 9\n7 8 9 100 110 120 33 22 11\n");
+    folder.write("f.pfm",
+                 std::string("PF\n2 1\n-1.0\n") +
+                     std::string("\x00\x00\x80\x3f\x00\x00\x00\x3f\xcd\xcc\xcc\x3d\x00\x00\x20\x41\x00\x00\x80\x3e\x17\xb7\xd1\x38", 24));
+    for (const char* file : {"b.ppm", "f.pfm"})
+        for (const std::string& placed : {std::string(), turned, mirrored}) {
+            const std::string xml = expect_same(folder, "<emitter type=\"envmap\"><string name=\"filename\" value=\"" + std::string(file) +
+                                                            "\"/><float name=\"scale\" value=\".37\"/>" + placed + "</emitter>");
+            EXPECT_THAT(xml, ::testing::HasSubstr(".exr"));
+        }
+}
+
+TEST(SceneWriter, ProjectorsOfImages)
+{
+    const SceneFolder folder;
+    folder.write("b.ppm", "P3\n3 2\n255\n1 2 3 40 50 60 255 0 9\n7 8 9 100 110 120 33 22 11\n");
+    const std::string image = R"(<texture name="irradiance" type="bitmap"><string name="filename" value="b.ppm"/></texture>)";
+    for (const std::string& placed : {std::string(), turned, mirrored})
+        for (const char* angle : {"", R"(<float name="fov" value="33.3"/>)", R"(<float name="fov" value="71"/><string name="fov_axis" value="y"/>)",
+                                  R"(<float name="fov" value="179.9"/>)", R"(<string name="focal_length" value="35mm"/>)"})
+            expect_same(folder, "<emitter type=\"projector\">" + placed + image + angle + "<float name=\"scale\" value=\"7.3\"/></emitter>");
+}
+
+// Scaled down from 5 x 2 to 2 x 1 texels, the image would give the projector another height.
+TEST(SceneWriter, RefusesProjectorsOfImagesOfAnotherAspect)
+{
+    const SceneFolder folder;
+    folder.write("b.ppm", "P3\n5 2\n255\n1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 1 2 3 4 5 6 7 8 9 1 2 3 4 5 6\n");
+    folder.write("scene.xml", sundog::testing::scene_with(R"(<emitter type="projector"><texture name="irradiance" type="bitmap">
+<string name="filename" value="b.ppm"/></texture></emitter>)"));
+    LoadOptions options;
+    options.texture_bytes = 16;
+    const Scene scene = load_scene(folder.path() / "scene.xml", options).scene;
+    EXPECT_THROW(write_scene(scene, folder.path() / "files"), SceneError);
+}
 #endif
 
 TEST(SceneWriter, LightsOfTheScene)
@@ -222,6 +261,61 @@ TEST(SceneWriter, LightsOfTheScene)
 <emitter type="spot"><transform name="to_world"><lookat origin="1, 2, 3" target=".2, .3, .4"/></transform><float name="cutoff_angle" value="33.3"/>
 <float name="beam_width" value="33.3"/></emitter><emitter type="directional"><vector name="direction" x="1" y="2" z=".3"/></emitter>
 <emitter type="directional"><transform name="to_world"><rotate x="1" angle="33"/></transform></emitter>)");
+}
+
+const std::string checkers = R"(type="checkerboard"><rgb name="color0" value=".9, .8, .7"/></texture>)";
+
+TEST(SceneWriter, TexturedLights)
+{
+    const auto scaled = [](const std::string& name) {
+        return "<texture name=\"" + name + "\" type=\"scale\"><rgb name=\"scale\" value=\"3, .7, .1\"/><texture " + checkers + "</texture>";
+    };
+    const std::string glow = "<emitter type=\"area\">" + scaled("radiance") + "</emitter>";
+    // A light's texture is numbered before those of its shape's material, even where it is the second in the file.
+    const std::string material = "<bsdf type=\"diffuse\"><texture name=\"reflectance\" " + checkers + "</bsdf>";
+    for (const char* type : {"rectangle", "sphere", "cube"}) {
+        expect_same(shape(type, turned + glow + material));
+        expect_same(shape(type, turned + material + glow));
+    }
+    for (const std::string& placed : {std::string(), turned, mirrored}) {
+        expect_same("<emitter type=\"spot\">" + placed + scaled("texture") + R"(<rgb name="intensity" value="1, 2, .3"/></emitter>)");
+        for (const std::string& irradiance :
+             {std::string(), std::string(R"(<rgb name="irradiance" value=".3, 1.7, 2"/>)"), scaled("irradiance"), "<texture name=\"irradiance\" " + checkers})
+            expect_same("<emitter type=\"projector\">" + placed + irradiance + R"(<float name="scale" value="1.3"/></emitter>)");
+    }
+}
+
+TEST(SceneWriter, RefusesTexturesOfLightsThatWereLeftOut)
+{
+    const Scene scene = SceneFolder()
+                            .load(sundog::testing::scene_with(shape("disk", "<emitter type=\"area\"><texture type=\"scale\" name=\"radiance\"><rgb "
+                                                                            "name=\"scale\" value=\"0\"/><texture " +
+                                                                                checkers + "</texture></emitter>")))
+                            .scene;
+    const SceneFolder folder;
+    EXPECT_THROW(write_scene(scene, folder.path() / "files"), SceneError);
+}
+
+// Groups, instances, shapes, BSDFs and textures are numbered as they were, whatever their order in the file.
+TEST(SceneWriter, GroupsAndInstances)
+{
+    const auto instance = [](const std::string& group, const std::string& placed) {
+        return shape("instance", "<ref id=\"" + group + "\"/>" + placed);
+    };
+    const auto textured = [](const std::string& type) {
+        return shape(type, uneven + "<bsdf type=\"diffuse\"><texture name=\"reflectance\" " + checkers + "</bsdf>");
+    };
+    const std::string groups = R"(<shape type="shapegroup" id="a">)" + shape("sphere", turned + "<ref id=\"shared\"/>") + textured("cube") +
+                               R"(</shape><shape type="shapegroup" id="b">)" + shape("cylinder", mirrored) + shape("disk", "<ref id=\"shared\"/>") +
+                               textured("rectangle") + R"(</shape><bsdf type="dielectric" id="shared"/>)";
+    const std::string used = shape("disk", "") + instance("b", uneven) + instance("b", turned) + textured("disk") + instance("a", mirrored) +
+                             instance("b", mirrored) + shape("sphere", turned) + instance("a", "");
+    for (const std::string& inside : {groups + used, used + groups}) {
+        const std::string xml = expect_same(inside);
+        EXPECT_THAT(xml, ::testing::HasSubstr("shapegroup"));
+    }
+    // Nothing but copies, of the later group first.
+    expect_same(groups + instance("b", turned) + instance("a", uneven));
 }
 
 std::string scene_of_sensor(const std::string& sensor, const std::string& version = "3.0.0")
