@@ -13,4 +13,9 @@ TexelImage load_environment(const std::filesystem::path& file, const SourceLocat
     return load_bitmap(file, wanted_at, false, cleaned);
 }
 
+std::string encode_bitmap(const TexelImage&, const std::filesystem::path& file)
+{
+    throw FileError(file.string() + ": this build of Sundog writes no bitmaps; build without SUNDOG_MINIMAL");
+}
+
 } // namespace sundog

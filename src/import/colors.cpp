@@ -147,7 +147,7 @@ Vec3 read_spectrum_object(const XmlElement& element, const SceneIndex& index)
         else if (name == "scale")
             scale = number_attribute(child, "value");
         else
-            index.warn(child.where, "parameter '" + name + "' of spectrum '" + type + "' is not known and was ignored");
+            index.warn(child.where, "parameter '" + name + "' of spectrum '" + type + "' is not known and was ignored", WarningKind::ignored);
     }
     if (!main) throw SceneError(element.where, "spectrum '" + type + "' needs a <float name=\"" + wanted + "\">");
     const double value = number_attribute(*main, "value");
@@ -201,7 +201,7 @@ Vec3 read_color(const XmlElement& element, const SceneIndex& index, ColorRole ro
         return color;
     }
     if (negative || max_component(color) > 1.0f) {
-        index.warn(element.where, "'" + name + "' is outside of [0, 1], where energy is conserved, and was clamped");
+        index.warn(element.where, "'" + name + "' is outside of [0, 1], where energy is conserved, and was clamped", WarningKind::approximated);
         return min(max(color, Vec3{0, 0, 0}), Vec3{1, 1, 1});
     }
     return color;

@@ -2,6 +2,7 @@
 
 #include "import/bitmap.h"
 #include "import/sensor_import.h"
+#include "math/direction.h"
 
 #include <numbers>
 #include <utility>
@@ -34,9 +35,9 @@ PointEmitter read_point(ObjectReader& reader)
 void set_axes(const Transform& to_world, const SourceLocation& where, Vec3& x, Vec3& y, Vec3& z)
 {
     if (!to_world.uniform_scale()) throw SceneError(where, "to_world of a light with an image may only rotate, reflect, move and scale evenly");
-    x = normalize(to_world.vector({1, 0, 0}));
-    y = normalize(to_world.vector({0, 1, 0}));
-    z = normalize(to_world.vector({0, 0, 1}));
+    x = direction_of(to_world.vector({1, 0, 0}));
+    y = direction_of(to_world.vector({0, 1, 0}));
+    z = direction_of(to_world.vector({0, 0, 1}));
 }
 
 ProjectorEmitter read_projector(ObjectReader& reader, TextureImporter& textures)
@@ -62,7 +63,7 @@ SpotEmitter read_spot(ObjectReader& reader, TextureImporter& textures)
     SpotEmitter emitter;
     const Transform to_world = reader.transform("to_world");
     emitter.position = to_world.point({0, 0, 0});
-    emitter.direction = normalize(to_world.vector({0, 0, 1}));
+    emitter.direction = direction_of(to_world.vector({0, 0, 1}));
     emitter.intensity = reader.color("intensity", {1, 1, 1}, ColorRole::emission);
     const ColorSource texture = textures.color(reader, "texture", {1, 1, 1}, ColorRole::emission);
     emitter.texture = texture.texture;
@@ -88,9 +89,8 @@ DirectionalEmitter read_directional(ObjectReader& reader)
         throw SceneError(reader.where_of("to_world"), "give a directional emitter either direction or to_world, not both");
     const Transform to_world = reader.transform("to_world");
     const Vec3 direction = reader.vector("direction").value_or(to_world.vector({0, 0, 1}));
-    const double length = std::hypot(direction.x, direction.y, direction.z);
-    if (!(length > 0.0)) throw SceneError(reader.where_of("direction"), "direction of a directional emitter must not be zero");
-    emitter.direction = direction / static_cast<float>(length);
+    if (direction == Vec3{0, 0, 0}) throw SceneError(reader.where_of("direction"), "direction of a directional emitter must not be zero");
+    emitter.direction = direction_of(direction);
     emitter.irradiance = reader.color("irradiance", {1, 1, 1}, ColorRole::emission);
     return emitter;
 }
@@ -105,7 +105,7 @@ EnvironmentEmitter read_environment(ObjectReader& reader)
         throw SceneError(reader.where_of("gamma"), "'gamma' of an envmap must be -1 (as the file says): convert the image");
     bool cleaned = false;
     emitter.image = std::make_shared<const TexelImage>(load_environment(file, where, cleaned));
-    if (cleaned) reader.index().warn(where, "values of '" + file.string() + "' that are negative or not finite count as 0");
+    if (cleaned) reader.index().warn(where, "values of '" + file.string() + "' that are negative or not finite count as 0", WarningKind::approximated);
     emitter.scale = static_cast<float>(reader.number("scale", 1.0));
     if (!(emitter.scale >= 0.0f)) throw SceneError(reader.where_of("scale"), "scale of an envmap must be >= 0");
     const Transform to_world = reader.transform("to_world");

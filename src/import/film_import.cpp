@@ -64,7 +64,7 @@ void read_type(ObjectReader& reader, Film& film)
 {
     const std::string type = reader.type();
     const auto taken_as_hdrfilm = [&](const std::string& reason) {
-        reader.index().warn(reader.where(), "film '" + type + "' is taken as hdrfilm: " + reason);
+        reader.index().warn(reader.where(), "film '" + type + "' is taken as hdrfilm: " + reason, WarningKind::approximated);
     };
     if (type == "ldrfilm") {
         taken_as_hdrfilm("exposure is chosen when the image is written");

@@ -21,7 +21,7 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
 
     const auto sensors = root.nested("sensor");
     if (sensors.empty()) throw SceneError({xml.file, 0}, "the scene has no <sensor>: add one, as in <sensor type=\"perspective\">");
-    if (sensors.size() > 1) index.warn(sensors[1].where, "the scene has several sensors; only the first is rendered");
+    if (sensors.size() > 1) index.warn(sensors[1].where, "the scene has several sensors; only the first is rendered", WarningKind::ignored);
     import_sensor(*sensors.front().object, index, scene);
 
     if (const auto integrator = root.single("integrator")) import_integrator(*integrator->object, index, scene.integrator);

@@ -55,7 +55,7 @@ public:
                 if (element.name == "face")
                     faces = body_;
                 else if (element.count > 0)
-                    file_.warnings.push_back("elements '" + element.name + "' of the PLY file are not used");
+                    file_.warnings.emplace_back("elements '" + element.name + "' of the PLY file are not used", WarningKind::ignored);
                 body_.skip(element);
             }
         }
@@ -170,8 +170,9 @@ private:
         if (!found.unused.empty()) {
             std::string names;
             for (const auto& name : found.unused) names += (names.empty() ? "'" : ", '") + name + "'";
-            file_.warnings.push_back(names + " of the elements '" + element.name + "' of the PLY file " +
-                                     (found.unused.size() == 1 ? "is" : "are") + " not used");
+            file_.warnings.emplace_back(names + " of the elements '" + element.name + "' of the PLY file " +
+                                     (found.unused.size() == 1 ? "is" : "are") + " not used",
+                                     WarningKind::ignored);
         }
         return first;
     }

@@ -95,7 +95,7 @@ TexelImage halved(const TexelImage& image)
     return half;
 }
 
-void fit_texture_budget(Scene& scene, std::uint64_t budget, std::vector<std::string>& warnings)
+void fit_texture_budget(Scene& scene, std::uint64_t budget, std::vector<Warning>& warnings)
 {
     std::vector<Shrinking> bitmaps = distinct_bitmaps(scene);
     std::uint64_t total = 0;
@@ -111,8 +111,9 @@ void fit_texture_budget(Scene& scene, std::uint64_t budget, std::vector<std::str
     for (const auto& bitmap : bitmaps) {
         if (bitmap.current == bitmap.original) continue;
         for (BitmapTexture* user : bitmap.users) user->image = bitmap.current;
-        warnings.push_back(bitmap.where.prefix() + "the bitmap was scaled down from " + size_of(*bitmap.original) + " to " + size_of(*bitmap.current) +
-                           " texels to keep all within " + std::to_string(budget / 1'000'000) + " MB: --texture-memory allows more");
+        warnings.emplace_back(bitmap.where.prefix() + "the bitmap was scaled down from " + size_of(*bitmap.original) + " to " + size_of(*bitmap.current) +
+                           " texels to keep all within " + std::to_string(budget / 1'000'000) + " MB: --texture-memory allows more",
+                              WarningKind::approximated);
     }
 }
 

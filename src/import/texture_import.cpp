@@ -34,7 +34,8 @@ TextureFilter read_filter(ObjectReader& reader)
     const std::string filter = reader.text("filter_type", "bilinear");
     if (filter == "nearest") return TextureFilter::nearest;
     if (filter == "ewa" || filter == "trilinear")
-        reader.index().warn(reader.where_of("filter_type"), "filter '" + filter + "' is done as bilinear: many samples a pixel average the texture");
+        reader.index().warn(reader.where_of("filter_type"), "filter '" + filter + "' is done as bilinear: many samples a pixel average the texture",
+                              WarningKind::approximated);
     else if (filter != "bilinear")
         throw SceneError(reader.where_of("filter_type"), "'filter_type' must be nearest or bilinear, got '" + filter + "'");
     return TextureFilter::bilinear;
@@ -79,8 +80,7 @@ NumberSource TextureImporter::number(ObjectReader& reader, std::string_view name
 
 double TextureImporter::aspect(uint texture) const
 {
-    const auto* bitmap = std::get_if<BitmapTexture>(&textures_.at(texture).model);
-    return bitmap ? static_cast<double>(bitmap->image->width) / bitmap->image->height : 1.0;
+    return textures_.at(texture).aspect();
 }
 
 ColorSource TextureImporter::import(const XmlElement& element)
@@ -131,7 +131,8 @@ BitmapTexture TextureImporter::read_bitmap(ObjectReader& reader)
     if (!image) {
         bool clipped = false;
         image = std::make_shared<const TexelImage>(load_bitmap(file, reader.where_of("filename"), raw, clipped));
-        if (clipped) index_.warn(reader.where_of("filename"), "values of '" + file.string() + "' that are not finite or beyond 65504 were clamped");
+        if (clipped) index_.warn(reader.where_of("filename"), "values of '" + file.string() + "' that are not finite or beyond 65504 were clamped",
+                                      WarningKind::approximated);
     }
     bitmap.image = image;
     bitmap.wrap = read_wrap(reader);

@@ -142,6 +142,11 @@ bool Transform::is_affine() const
     return m[3][0] == 0.0 && m[3][1] == 0.0 && m[3][2] == 0.0 && m[3][3] == 1.0;
 }
 
+bool Transform::is_identity() const
+{
+    return m == Transform().m;
+}
+
 bool Transform::is_finite() const
 {
     for (const auto& row : m)

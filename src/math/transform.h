@@ -37,6 +37,7 @@ struct Transform {
     double determinant() const; // of the linear part; negative for reflections
     bool is_affine() const;     // last row is 0 0 0 1
     bool is_finite() const;
+    bool is_identity() const;
     // Whether the linear part flattens space: its determinant vanishes against the lengths of its columns.
     bool is_singular() const;
     // The factor by which all lengths change, where that is one factor within the relative tolerance:

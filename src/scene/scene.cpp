@@ -49,6 +49,12 @@ Vec3 Disk::normal() const
     return flip_normals ? -n : n;
 }
 
+double TextureDescription::aspect() const
+{
+    const auto* bitmap = std::get_if<BitmapTexture>(&model);
+    return bitmap ? static_cast<double>(bitmap->image->width) / bitmap->image->height : 1.0;
+}
+
 std::size_t Scene::triangle_count() const
 {
     std::size_t count = 0;

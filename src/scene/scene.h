@@ -126,6 +126,8 @@ struct TextureDescription {
     std::array<float, 3> to_u{1, 0, 0}; // u' = to_u . (u, v, 1)
     std::array<float, 3> to_v{0, 1, 0};
     std::variant<BitmapTexture, CheckerboardTexture, AttributeTexture> model;
+
+    double aspect() const; // of a bitmap, width over height; 1 for others
 };
 
 // --- Scattering ---------------------------------------------------------------

@@ -55,7 +55,7 @@ Vec3 emission_of(const EmitterDescription& emitter)
 
 constexpr const char* dark = "a light that emits nothing is left out";
 
-void check_area_lights(Scene& scene, std::vector<std::string>& warnings)
+void check_area_lights(Scene& scene, std::vector<Warning>& warnings)
 {
     for (auto& shape : scene.shapes) {
         if (!shape.emitter) continue;
@@ -71,7 +71,7 @@ void check_area_lights(Scene& scene, std::vector<std::string>& warnings)
     }
 }
 
-void check_emitters(Scene& scene, std::vector<std::string>& warnings)
+void check_emitters(Scene& scene, std::vector<Warning>& warnings)
 {
     bool environment = false;
     for (std::size_t i = 0; i < scene.emitters.size();) {
@@ -96,7 +96,7 @@ double surface_area(const ShapeDescription& shape)
     return std::visit([](const auto& geometry) { return area_of(geometry); }, shape.geometry);
 }
 
-void validate_scene(Scene& scene, std::vector<std::string>& warnings)
+void validate_scene(Scene& scene, std::vector<Warning>& warnings)
 {
     if (scene.shapes.empty()) throw SceneError({scene.file, 0}, "the scene has no <shape>: there is nothing to render");
     if (scene.triangle_count() > max_primitives)

@@ -57,7 +57,7 @@ TEST(TextureBudget, LargestBitmapsShrinkFirst)
     add(scene, large);
     add(scene, image_of(16, 16)); // 1024
     add(scene, large);
-    std::vector<std::string> warnings;
+    std::vector<Warning> warnings;
     fit_texture_budget(scene, 9216, warnings);
     EXPECT_TRUE(warnings.empty());
     fit_texture_budget(scene, 9215, warnings);
