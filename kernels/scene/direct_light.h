@@ -20,7 +20,7 @@ static inline float3 found_environment(const SurfaceView* scene, const PathState
 {
     const uint light = scene->globals->constant_light;
     if (light == NO_LIGHT) return (float3)(0.0f);
-    return unpack(scene->lights[light].emission) * (mis ? emission_weight(path, constant_light_pdf_w(scene)) : 1.0f);
+    return transport_emission(scene, unpack(scene->lights[light].emission)) * (mis ? emission_weight(path, constant_light_pdf_w(scene)) : 1.0f);
 }
 
 // Radiance that a surface emits back along the ray that found it; with `mis`, weighted as above.

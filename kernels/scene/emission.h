@@ -33,7 +33,7 @@ static inline Ray distant_ray(const SurfaceView* scene, float3 direction, float2
 static inline EmissionSample sample_emission(const SurfaceView* scene, float4 u, float2 u_direction)
 {
     const Light light = scene->lights[choose_light(scene, u.z)];
-    const float3 emission = unpack(light.emission) / light.probability;
+    const float3 emission = transport_emission(scene, unpack(light.emission)) / light.probability;
     const float disk_area = PI_F * scene->globals->radius * scene->globals->radius;
     EmissionSample sample;
     sample.from_delta_light = LIGHT_IS_DELTA(light.type);

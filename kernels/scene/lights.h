@@ -3,6 +3,7 @@
 #define SUNDOG_SCENE_LIGHTS_H
 #include "math/frame.h"
 #include "math/warp.h"
+#include "scene/spectral.h"
 #include "scene/surface.h"
 #include "shared/path.h"
 
@@ -127,7 +128,7 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
             sample->direction = direction;
             sample->pdf_w = light->probability / (2.0f * PI_F * one_minus_cos);
             sample->shadow_ray = segment_to(surface, direction, &point);
-            sample->radiance = unpack(light->emission) / sample->pdf_w;
+            sample->radiance = transport_emission(scene, unpack(light->emission)) / sample->pdf_w;
             return true;
         }
     }
@@ -138,7 +139,7 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
     const float cos_at_light = -dot(sample->direction, point.normal);
     if (!(cos_at_light > 0.0f) || !(distance_squared > 0.0f)) return false;
     sample->pdf_w = pdf_w_from_a(light->probability / light->area, distance_squared, cos_at_light);
-    sample->radiance = unpack(light->emission) / sample->pdf_w;
+    sample->radiance = transport_emission(scene, unpack(light->emission)) / sample->pdf_w;
     sample->shadow_ray = segment_to(surface, sample->direction, &point);
     return true;
 }
@@ -153,7 +154,7 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
         const float3 to_light = unpack(light.position) - surface->position;
         const float distance_squared = dot(to_light, to_light);
         sample->direction = to_light * rsqrt(distance_squared);
-        float3 intensity = unpack(light.emission);
+        float3 intensity = transport_emission(scene, unpack(light.emission));
         if (light.type == LIGHT_SPOT) intensity *= spot_falloff(&light, -dot(sample->direction, unpack(light.direction)));
         sample->radiance = intensity / (distance_squared * light.probability);
         sample->pdf_w = PDF_DELTA;
@@ -162,14 +163,14 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
     }
     case LIGHT_DIRECTIONAL:
         sample->direction = -unpack(light.direction);
-        sample->radiance = unpack(light.emission) / light.probability;
+        sample->radiance = transport_emission(scene, unpack(light.emission)) / light.probability;
         sample->pdf_w = PDF_DELTA;
         sample->shadow_ray = ray_from(surface, sample->direction);
         return true;
     case LIGHT_CONSTANT:
         sample->direction = sample_sphere(u.xy);
         sample->pdf_w = light.probability * (0.25f * INV_PI_F);
-        sample->radiance = unpack(light.emission) / sample->pdf_w;
+        sample->radiance = transport_emission(scene, unpack(light.emission)) / sample->pdf_w;
         sample->shadow_ray = ray_from(surface, sample->direction);
         return true;
     default: return sample_area_light(scene, surface, &light, u.xy, sample);
@@ -187,7 +188,7 @@ static inline uint light_of_hit(const SurfaceView* scene, const Surface* surface
 static inline float3 emitted_radiance(const SurfaceView* scene, const Surface* surface, uint light)
 {
     const bool front = dot(surface->geometric_normal, surface->outgoing) > 0.0f;
-    return light != NO_LIGHT && front ? unpack(scene->lights[light].emission) : (float3)(0.0f);
+    return light != NO_LIGHT && front ? transport_emission(scene, unpack(scene->lights[light].emission)) : (float3)(0.0f);
 }
 
 // Density (1/sr) with which sample_light, at the ray's origin, would have chosen the direction that hit

@@ -48,6 +48,7 @@ static inline float3 read_bitmap(const SurfaceView* scene, const Texture* textur
     return mix(above, below, t.y);
 }
 
+#if HAS_UV
 static inline float3 read_attribute(const SurfaceView* scene, const Texture* texture, const Surface* surface)
 {
     if (surface->primitive & ANALYTIC_BIT) return (float3)(0.0f);
@@ -77,6 +78,9 @@ static inline float3 textured_color(const SurfaceView* scene, TexturedColor colo
     }
     return value;
 }
+#else
+static inline float3 textured_color(const SurfaceView* scene, TexturedColor color, const Surface* surface) { return unpack(color.value); }
+#endif
 
 #define LUMINANCE_WEIGHTS ((float3)(0.2126f, 0.7152f, 0.0722f)) // of linear sRGB, ITU-R BT.709
 

@@ -14,7 +14,7 @@ __kernel void add_visible_light(SURFACE_PARAMETERS, uint count, __global const R
         const Surface surface = surface_at(&scene, rays[path], hits[path]);
         emitted = emitted_radiance(&scene, &surface, light_of_hit(&scene, &surface));
     } else if (globals->constant_light != NO_LIGHT) {
-        emitted = unpack(lights[globals->constant_light].emission);
+        emitted = transport_emission(&scene, unpack(lights[globals->constant_light].emission));
     }
     radiance[path] = pack(unpack(radiance[path]) + unpack(paths[path].throughput) * emitted);
 }

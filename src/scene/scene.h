@@ -7,6 +7,7 @@
 #include "base/errors.h"
 #include "math/bounds.h"
 #include "math/vec3.h"
+#include "scene/dispersion.h"
 #include "shared/vec2.h"
 
 #include <array>
@@ -147,6 +148,8 @@ struct DielectricBsdf {
     ColorSource specular_reflectance;
     ColorSource specular_transmittance;
     std::optional<Roughness> roughness = std::nullopt; // never of a thin one
+    // Of the interior; int_ior is its index at the sodium D line. Shows in spectral transport.
+    std::optional<SellmeierFormula> dispersion = std::nullopt;
 };
 
 // eta and k relative to the exterior medium. eta = 0 and k = 1 (material "none")
@@ -295,6 +298,7 @@ struct Scene {
 
     std::size_t triangle_count() const;
     Bounds bounds() const;
+    bool has_dispersion() const;
 };
 
 } // namespace sundog
