@@ -22,7 +22,7 @@ __kernel void shade_camera_path(SURFACE_PARAMETERS, SamplerKey key, PathRules ru
     if (path.depth > rules.max_depth) return;
 
     if (hit.primitive == NO_PRIMITIVE) {
-        radiance[index] = pack(unpack(radiance[index]) + throughput * found_environment(&scene, &path, true));
+        radiance[index] = pack(unpack(radiance[index]) + throughput * found_environment(&scene, &path, rays[index], true));
         return;
     }
     const Ray ray = rays[index];

@@ -61,7 +61,7 @@ __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rul
 
     const bool mis = DIRECT_LIGHT && LOBES_MAY_BE_NARROW;
     if (hit.primitive == NO_PRIMITIVE) {
-        radiance[index] = pack(unpack(radiance[index]) + throughput * found_environment(&scene, &path, mis));
+        radiance[index] = pack(unpack(radiance[index]) + throughput * found_environment(&scene, &path, rays[index], mis));
         return;
     }
     const Ray ray = rays[index];

@@ -49,6 +49,8 @@ void print_text(const SceneSummary& summary, std::size_t warnings)
     const auto line = [](const char* name, const std::string& value) { std::cout << fmt::format("{:<12}{}\n", name, value); };
     line("scene", summary.file);
     line("shapes", counts_text(summary.shapes) + fmt::format("; {} triangles", summary.triangles));
+    if (summary.instances > 0)
+        line("instances", fmt::format("{} of {} groups; {} triangles with their copies", summary.instances, summary.groups, summary.triangles_with_copies));
     line("bsdfs", counts_text(summary.bsdfs));
     line("emitters", counts_text(summary.emitters) + fmt::format("; {} lights to sample", summary.lights));
     line("bounds", summary.bounds.empty() ? "empty" : point_text(summary.bounds.lower) + " to " + point_text(summary.bounds.upper));
@@ -66,6 +68,9 @@ void print_json(const SceneSummary& summary, const std::vector<std::string>& war
     json["scene"] = summary.file;
     json["shapes"] = summary.shapes;
     json["triangles"] = summary.triangles;
+    json["groups"] = summary.groups;
+    json["instances"] = summary.instances;
+    json["triangles_with_copies"] = summary.triangles_with_copies;
     json["bsdfs"] = summary.bsdfs;
     json["emitters"] = summary.emitters;
     json["lights"] = summary.lights;

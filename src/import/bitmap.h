@@ -15,4 +15,8 @@ namespace sundog
 // build, always.
 TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& wanted_at, bool raw, bool& clipped);
 
+// An environment map: linear 32-bit floats, whatever the file holds; negative and infinite values and NaN become 0, and
+// `cleaned` is set. Throws as load_bitmap.
+TexelImage load_environment(const std::filesystem::path& file, const SourceLocation& wanted_at, bool& cleaned);
+
 } // namespace sundog

@@ -1,20 +1,19 @@
 #include "import/bitmap.h"
 
-#include "scene/spectrum.h"
+#include "math/half.h"
+#include "math/srgb.h"
 
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace sundog
 {
 
 namespace
 {
-
-constexpr float largest_half = 65504.0f;
 
 [[noreturn]] void unreadable(const std::filesystem::path& file, const SourceLocation& wanted_at, std::string reason)
 {
@@ -53,9 +52,7 @@ uint half_bits(float value, bool& clipped)
         clipped = true;
         value = std::isnan(value) ? 0.0f : std::copysign(largest_half, value);
     }
-    unsigned short bits = 0;
-    OIIO::convert_pixel_values(OIIO::TypeDesc::FLOAT, &value, OIIO::TypeDesc::HALF, &bits);
-    return bits;
+    return half_from_float(value);
 }
 
 std::vector<uint> pack_halves(const std::vector<float>& pixels, int channels, bool encoded, bool& clipped)
@@ -65,21 +62,28 @@ std::vector<uint> pack_halves(const std::vector<float>& pixels, int channels, bo
     texels.reserve(2 * pixels.size() / static_cast<std::size_t>(channels));
     for (std::size_t i = 0; i < pixels.size(); i += static_cast<std::size_t>(channels)) {
         uint half[3];
-        for (std::size_t c = 0; c < 3; c++) half[c] = half_bits(encoded ? srgb_decode(pixels[i + rgb[c]]) : pixels[i + rgb[c]], clipped);
+        for (std::size_t c = 0; c < 3; c++) half[c] = half_bits(encoded ? linear_from_srgb(pixels[i + rgb[c]]) : pixels[i + rgb[c]], clipped);
         texels.push_back(half[0] | half[1] << 16);
         texels.push_back(half[2]);
     }
     return texels;
 }
 
+std::unique_ptr<OIIO::ImageInput> open_plane(const std::filesystem::path& file, const SourceLocation& wanted_at)
+{
+    auto input = OIIO::ImageInput::open(file.string());
+    if (!input) unreadable(file, wanted_at, OIIO::geterror());
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) unreadable(file, wanted_at, "it has no pixels in a plane");
+    return input;
+}
+
 } // namespace
 
 TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& wanted_at, bool raw, bool& clipped)
 {
-    const auto input = OIIO::ImageInput::open(file.string());
-    if (!input) unreadable(file, wanted_at, OIIO::geterror());
+    const auto input = open_plane(file, wanted_at);
     const OIIO::ImageSpec& spec = input->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) unreadable(file, wanted_at, "it has no pixels in a plane");
     TexelImage image;
     image.width = spec.width;
     image.height = spec.height;
@@ -91,6 +95,31 @@ TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& 
     const bool encoded = !raw && !spec.format.is_floating_point();
     image.format = TexelFormat::half;
     image.texels = pack_halves(read_pixels<float>(*input, OIIO::TypeDesc::FLOAT, file, wanted_at), spec.nchannels, encoded, clipped);
+    return image;
+}
+
+TexelImage load_environment(const std::filesystem::path& file, const SourceLocation& wanted_at, bool& cleaned)
+{
+    const auto input = open_plane(file, wanted_at);
+    const OIIO::ImageSpec& spec = input->spec();
+    TexelImage image;
+    image.width = spec.width;
+    image.height = spec.height;
+    image.format = TexelFormat::float32;
+    const bool encoded = !spec.format.is_floating_point();
+    const auto pixels = read_pixels<float>(*input, OIIO::TypeDesc::FLOAT, file, wanted_at);
+    const auto rgb = rgb_of(spec.nchannels);
+    image.texels.reserve(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    for (std::size_t i = 0; i < pixels.size(); i += static_cast<std::size_t>(spec.nchannels)) {
+        for (const std::size_t channel : rgb) {
+            float value = encoded ? linear_from_srgb(pixels[i + channel]) : pixels[i + channel];
+            if (!(value >= 0.0f) || !std::isfinite(value)) {
+                cleaned = true;
+                value = 0.0f;
+            }
+            image.texels.push_back(std::bit_cast<uint>(value));
+        }
+    }
     return image;
 }
 

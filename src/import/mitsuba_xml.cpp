@@ -2,9 +2,11 @@
 
 #include "import/bsdf_import.h"
 #include "import/emitter_import.h"
+#include "import/instance_import.h"
 #include "import/integrator_import.h"
 #include "import/sensor_import.h"
 #include "import/shape_import.h"
+#include "import/texture_budget.h"
 #include "scene/validate.h"
 
 namespace sundog
@@ -26,8 +28,11 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
 
     TextureImporter textures(index, scene.textures);
     BsdfImporter bsdfs(index, textures, scene.bsdfs);
-    for (const auto& shape : root.nested("shape")) import_shape(*shape.object, index, bsdfs, scene);
-    for (const auto& emitter : root.nested("emitter")) scene.emitters.push_back(import_emitter(*emitter.object, index));
+    InstanceImporter instances(index, bsdfs, textures, scene);
+    for (const auto& shape : root.nested("shape"))
+        if (!instances.import(*shape.object)) import_shape(*shape.object, index, bsdfs, textures, scene);
+    instances.finish();
+    for (const auto& emitter : root.nested("emitter")) scene.emitters.push_back(import_emitter(*emitter.object, index, textures));
 
     // Declared for those who refer to them, who complain about what they cannot use.
     for (const char* tag : {"bsdf", "texture", "medium", "volume", "phase"}) root.nested(tag);
@@ -43,6 +48,7 @@ LoadedScene load_scene(const std::filesystem::path& file, const LoadOptions& opt
     const XmlScene xml = read_scene_xml(file, options.defines, loaded.warnings);
     const SceneIndex index(xml, loaded.warnings);
     import_objects(xml, index, loaded.scene);
+    fit_texture_budget(loaded.scene, options.texture_bytes, loaded.warnings);
     validate_scene(loaded.scene, loaded.warnings);
     return loaded;
 }

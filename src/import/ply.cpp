@@ -4,7 +4,7 @@
 #include "import/ply_body.h"
 #include "import/polygon.h"
 #include "import/text_file.h"
-#include "scene/spectrum.h"
+#include "math/srgb.h"
 
 #include <cmath>
 
@@ -194,7 +194,7 @@ private:
         const float value = is_integer ? static_cast<float>(row_[property] / largest) : row_[property];
         // Mitsuba 3 decodes all integers, 0.6 only colours.
         const bool encoded = options_.colors == PlyColors::by_type ? is_integer : is_color && options_.colors == PlyColors::encoded;
-        return encoded ? srgb_decode(value) : value;
+        return encoded ? linear_from_srgb(value) : value;
     }
 
     PlyHeader header_;

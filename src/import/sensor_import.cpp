@@ -35,7 +35,8 @@ std::string read_fov_axis(ObjectReader& reader, double aspect)
     throw SceneError(reader.where_of("fov_axis"), "fov_axis must be x, y, diagonal, smaller or larger, got '" + axis + "'");
 }
 
-// Tangent of half the horizontal field of view.
+} // namespace
+
 double read_tan_half_x(ObjectReader& reader, double aspect)
 {
     const double diagonal_to_x = 1.0 / std::sqrt(1.0 + 1.0 / (aspect * aspect));
@@ -55,6 +56,9 @@ double read_tan_half_x(ObjectReader& reader, double aspect)
     if (axis == "diagonal") return tangent * diagonal_to_x;
     return tangent;
 }
+
+namespace
+{
 
 // Position and axes, whatever their lengths in to_world are.
 void set_pose(const Transform& to_world, const SourceLocation& where, Sensor& sensor)

@@ -94,7 +94,6 @@ Cylinder import_cylinder(ObjectReader& reader)
 [[noreturn]] void refuse_by_name(const ObjectReader& reader)
 {
     constexpr const char* as_mesh = "convert it to a mesh (ply or obj)";
-    constexpr const char* as_copies = "give each copy a shape of its own, with the to_world of its instance";
     static const std::map<std::string, const char*> cures = {
         {"heightfield", as_mesh},
         {"hair", "make tubes of the strands, as a mesh (ply or obj)"},
@@ -104,20 +103,18 @@ Cylinder import_cylinder(ObjectReader& reader)
         {"ellipsoids", as_mesh},
         {"ellipsoidsmesh", as_mesh},
         {"deformable", "save the mesh of the wanted instant (ply or obj)"},
-        {"shapegroup", as_copies},
-        {"instance", as_copies},
         {"merge", "put its shapes into the scene themselves"},
     };
     const auto cure = cures.find(reader.type());
     if (cure != cures.end()) throw SceneError(reader.where(), "shape plugin '" + cure->first + "' is not supported: " + cure->second);
-    reader.unsupported("obj, ply, serialized, rectangle, cube, sphere, disk, cylinder");
+    reader.unsupported("obj, ply, serialized, rectangle, cube, sphere, disk, cylinder, shapegroup, instance");
 }
 
 class ShapeImport
 {
 public:
-    ShapeImport(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, Scene& scene)
-        : reader_(element, index), bsdfs_(bsdfs), scene_(scene)
+    ShapeImport(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, TextureImporter& textures, Scene& scene)
+        : reader_(element, index), bsdfs_(bsdfs), textures_(textures), scene_(scene)
     {
         const std::string* id = element.attribute("id");
         common_.id = id ? *id : "";
@@ -127,7 +124,7 @@ public:
     void run()
     {
         const std::string type = reader_.type();
-        if (const auto emitter = reader_.single("emitter")) common_.emitter = import_area_emitter(*emitter->object, reader_.index());
+        if (const auto emitter = reader_.single("emitter")) common_.emitter = import_area_emitter(*emitter->object, reader_.index(), textures_);
         const auto bsdf = reader_.single("bsdf");
         if (type == "obj" && !bsdf) {
             add_obj_with_materials();
@@ -188,15 +185,16 @@ private:
 
     ObjectReader reader_;
     BsdfImporter& bsdfs_;
+    TextureImporter& textures_;
     Scene& scene_;
     ShapeDescription common_;
 };
 
 } // namespace
 
-void import_shape(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, Scene& scene)
+void import_shape(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, TextureImporter& textures, Scene& scene)
 {
-    ShapeImport(element, index, bsdfs, scene).run();
+    ShapeImport(element, index, bsdfs, textures, scene).run();
 }
 
 } // namespace sundog

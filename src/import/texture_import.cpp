@@ -77,6 +77,12 @@ NumberSource TextureImporter::number(ObjectReader& reader, std::string_view name
     return static_cast<float>(value);
 }
 
+double TextureImporter::aspect(uint texture) const
+{
+    const auto* bitmap = std::get_if<BitmapTexture>(&textures_.at(texture).model);
+    return bitmap ? static_cast<double>(bitmap->image->width) / bitmap->image->height : 1.0;
+}
+
 ColorSource TextureImporter::import(const XmlElement& element)
 {
     if (const auto found = imported_.find(&element); found != imported_.end()) return found->second;

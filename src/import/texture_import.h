@@ -20,6 +20,9 @@ public:
     // A parameter that is a number or a texture, in [least, most].
     NumberSource number(ObjectReader& reader, std::string_view name, double fallback, double least, double most);
 
+    // Width over height of an image, 1 of other textures.
+    double aspect(uint texture) const;
+
 private:
     // The texture, and what its value has to be multiplied by (0.6's <texture type="scale">).
     ColorSource import(const XmlElement& element);

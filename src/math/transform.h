@@ -2,6 +2,7 @@
 // and their inverse transposes loses nothing that a float would show.
 #pragma once
 
+#include "math/bounds.h"
 #include "math/double3.h"
 
 #include <optional>
@@ -27,6 +28,11 @@ struct Transform {
     // Unit normal of the mapped surface whose normal was n: by the inverse transpose, so that what was
     // outside stays outside under reflections too.
     Vec3 normal(Vec3 n) const;
+
+    // Of an affine map that is not singular.
+    Transform inverse() const;
+    // Box of the mapped box, empty for an empty one.
+    Bounds box(const Bounds& b) const;
 
     double determinant() const; // of the linear part; negative for reflections
     bool is_affine() const;     // last row is 0 0 0 1

@@ -1,5 +1,7 @@
 #include "scene/validate.h"
 
+#include "scene/flatten_environment.h"
+
 #include <cmath>
 #include <numbers>
 
@@ -45,6 +47,8 @@ Vec3 emission_of(const EmitterDescription& emitter)
         Vec3 operator()(const SpotEmitter& e) const { return e.intensity; }
         Vec3 operator()(const DirectionalEmitter& e) const { return e.irradiance; }
         Vec3 operator()(const ConstantEmitter& e) const { return e.radiance; }
+        Vec3 operator()(const ProjectorEmitter& e) const { return e.irradiance; }
+        Vec3 operator()(const EnvironmentEmitter& e) const { return Vec3{1, 1, 1} * static_cast<float>(e.scale * mean_luminance(e)); }
     };
     return std::visit(Emission{}, emitter.model);
 }
@@ -72,8 +76,8 @@ void check_emitters(Scene& scene, std::vector<std::string>& warnings)
     bool environment = false;
     for (std::size_t i = 0; i < scene.emitters.size();) {
         const auto& emitter = scene.emitters[i];
-        if (std::holds_alternative<ConstantEmitter>(emitter.model)) {
-            if (environment) throw SceneError(emitter.where, "the scene has two environments: keep one constant emitter");
+        if (std::holds_alternative<ConstantEmitter>(emitter.model) || std::holds_alternative<EnvironmentEmitter>(emitter.model)) {
+            if (environment) throw SceneError(emitter.where, "the scene has two environments: keep one constant or envmap emitter");
             environment = true;
         }
         if (max_component(emission_of(emitter)) > 0.0f) {
