@@ -1,9 +1,11 @@
 #include "scene/spectral_basis.h"
 
+#include "scene/cie_tables.h"
 #include "scene/spectrum.h"
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace sundog {
 
@@ -40,7 +42,7 @@ Matrix inverse(const Matrix& m)
 }
 
 // From what the curves make of light to linear sRGB in which the basis under D65 is exactly (1, 0, 0), (0, 1, 0) and
-// (0, 0, 1). Next to the identity: what tables and roundings leave over.
+// (0, 0, 1). Next to a multiple of the identity: beyond scale, what roundings leave over.
 const Matrix& correction()
 {
     static const Matrix matrix = [] {
@@ -61,7 +63,12 @@ const Matrix& correction()
 
 double d65(double wavelength)
 {
-    return interpolate(d65_table, wavelength);
+    if (!(wavelength >= cie_lambda_min && wavelength <= cie_lambda_max)) return 0.0;
+    const std::span<const CieRow> rows = cie_rows();
+    const double place = (wavelength - cie_lambda_min) / cie_lambda_step;
+    const auto row = std::min(static_cast<std::size_t>(place), rows.size() - 2);
+    const double t = place - static_cast<double>(row);
+    return (static_cast<double>(rows[row].d65) * (1.0 - t) + static_cast<double>(rows[row + 1].d65) * t) / 100.0;
 }
 
 Double3 reflectance_basis(double wavelength)

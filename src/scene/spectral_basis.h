@@ -12,11 +12,10 @@ inline constexpr double longest_wavelength = 830.0;
 inline constexpr double spectral_step = 10.0;
 
 // Made by scripts/make_spectral_basis.
-extern const double d65_table[spectral_nodes];
 extern const double red_table[spectral_nodes];
 extern const double green_table[spectral_nodes];
 
-// Relative power of CIE standard illuminant D65 at a wavelength (nm), 1 at 560 nm; 0 outside of the tables.
+// Relative power of CIE standard illuminant D65 at a wavelength (nm), 1 at 560 nm; 0 outside of scene/cie_tables.h.
 double d65(double wavelength);
 
 // Reflectances at a wavelength (nm, within the tables) of the colours (1, 0, 0), (0, 1, 0) and (0, 0, 1): smooth, between
@@ -24,8 +23,8 @@ double d65(double wavelength);
 Double3 reflectance_basis(double wavelength);
 
 // How linear sRGB responds to power at a wavelength, 1/nm: rgb = integral of L(lambda) rgb_matching(lambda). From the CIE
-// 1931 curves of scene/spectrum.h, with the rounding of tables taken out: the basis under D65, as above, has (1, 0, 0),
-// (0, 1, 0) and (0, 0, 1).
+// 1931 curves of scene/spectrum.h, with the rounding of matrix and basis taken out: the basis under D65, as above, has
+// (1, 0, 0), (0, 1, 0) and (0, 0, 1).
 Double3 rgb_matching(double wavelength);
 
 } // namespace sundog
