@@ -34,7 +34,7 @@ static inline EmissionSample sample_emission(const SurfaceView* scene, float4 u,
 {
     float rest = u.z;
     const Light light = scene->lights[choose_light(scene, &rest)];
-    const float3 emission = unpack(light.emission) / light.probability;
+    const float3 emission = transport_emission(scene, unpack(light.emission)) / light.probability;
     const float disk_area = PI_F * scene->globals->radius * scene->globals->radius;
     EmissionSample sample;
     sample.from_delta_light = LIGHT_IS_DELTA(light.type);
@@ -76,7 +76,7 @@ static inline EmissionSample sample_emission(const SurfaceView* scene, float4 u,
         float3 direction;
         const EnvironmentValue value = sample_environment_map(scene, &map, u_direction, u.w, &direction);
         sample.ray = distant_ray(scene, -direction, u.xy);
-        sample.flux = value.pdf_w > 0.0f ? emission * value.radiance * (disk_area / value.pdf_w) : (float3)(0.0f);
+        sample.flux = value.pdf_w > 0.0f ? transport_emission(scene, unpack(light.emission) / light.probability * value.radiance) * (disk_area / value.pdf_w) : (float3)(0.0f);
         break;
     }
 #endif

@@ -4,6 +4,7 @@
 #include "math/frame.h"
 #include "math/warp.h"
 #include "scene/environment.h"
+#include "scene/spectral.h"
 #include "scene/surface.h"
 #include "scene/texture.h"
 #include "shared/path.h"
@@ -35,14 +36,14 @@ static inline uint choose_light(const SurfaceView* scene, float* u)
     return kept ? column : entry.alias;
 }
 
-// A light's emission times what its texture, if it has one, says at a surface.
+// A light's emission times what its texture, if it has one, says at a surface: as transport computes with it.
 static inline float3 textured_emission(const SurfaceView* scene, const Light* light, const Surface* surface)
 {
 #if HAS_UV
     const TexturedColor color = {light->emission, light->texture};
-    return textured_color(scene, color, surface);
+    return transport_emission(scene, textured_color(scene, color, surface));
 #else
-    return unpack(light->emission);
+    return transport_emission(scene, unpack(light->emission));
 #endif
 }
 
@@ -105,7 +106,7 @@ static inline float3 light_point_radiance(const SurfaceView* scene, const Light*
         return textured_emission(scene, light, &surface);
     }
 #endif
-    return unpack(light->emission);
+    return transport_emission(scene, unpack(light->emission));
 }
 
 // The texture of a spot or projector at the point (x, y) of its image, in [-1, 1]^2 (kernels/shared/light.h).
@@ -139,7 +140,7 @@ static inline float3 projected_intensity(const SurfaceView* scene, const Light* 
 {
     const float cosine = dot(direction, unpack(light->direction));
     const float falloff = light->type == LIGHT_SPOT ? spot_falloff(light, cosine) : 1.0f;
-    if (light->type == LIGHT_SPOT && light->texture == NO_TEXTURE) return unpack(light->emission) * falloff;
+    if (light->type == LIGHT_SPOT && light->texture == NO_TEXTURE) return transport_emission(scene, unpack(light->emission)) * falloff;
     if (falloff == 0.0f || cosine < 1e-4f) return (float3)(0.0f);
     const LightProjection projection = scene->light_projections[light->primitive];
     const float2 place = projected_place(&projection, direction, cosine);
@@ -228,7 +229,7 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
         const float3 to_light = unpack(light.position) - surface->position;
         const float distance_squared = dot(to_light, to_light);
         sample->direction = to_light * rsqrt(distance_squared);
-        float3 intensity = unpack(light.emission);
+        float3 intensity = transport_emission(scene, unpack(light.emission));
         if (light.type != LIGHT_POINT) intensity = projected_intensity(scene, &light, -sample->direction);
         sample->radiance = intensity / (distance_squared * light.probability);
         sample->pdf_w = PDF_DELTA;
@@ -237,14 +238,14 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
     }
     case LIGHT_DIRECTIONAL:
         sample->direction = -unpack(light.direction);
-        sample->radiance = unpack(light.emission) / light.probability;
+        sample->radiance = transport_emission(scene, unpack(light.emission)) / light.probability;
         sample->pdf_w = PDF_DELTA;
         sample->shadow_ray = ray_from(surface, sample->direction);
         return true;
     case LIGHT_CONSTANT:
         sample->direction = sample_sphere(u.xy);
         sample->pdf_w = light.probability * (0.25f * INV_PI_F);
-        sample->radiance = unpack(light.emission) / sample->pdf_w;
+        sample->radiance = transport_emission(scene, unpack(light.emission)) / sample->pdf_w;
         sample->shadow_ray = ray_from(surface, sample->direction);
         return true;
 #if LIGHT_OCCURS(LIGHT_ENVMAP)
@@ -252,7 +253,7 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
         const EnvironmentMap map = scene->environment_maps[light.primitive];
         const EnvironmentValue value = sample_environment_map(scene, &map, u.xy, rest, &sample->direction);
         sample->pdf_w = light.probability * value.pdf_w;
-        sample->radiance = unpack(light.emission) * value.radiance / sample->pdf_w;
+        sample->radiance = transport_emission(scene, unpack(light.emission) * value.radiance) / sample->pdf_w;
         sample->shadow_ray = ray_from(surface, sample->direction);
         return value.pdf_w > 0.0f;
     }
@@ -310,7 +311,7 @@ static inline EnvironmentValue environment_value(const SurfaceView* scene, float
         value = environment_map_value(scene, &map, direction);
     }
 #endif
-    value.radiance *= unpack(light.emission);
+    value.radiance = transport_emission(scene, value.radiance * unpack(light.emission));
     value.pdf_w *= light.probability;
     return value;
 }

@@ -25,6 +25,10 @@ SHARED_BEGIN
 #define BSDF_BLACK_BACK 16u
 // The microfacets' normals are distributed by Beckmann's law; else by Trowbridge and Reitz's (GGX).
 #define BSDF_BECKMANN 8u
+// A dielectric whose index depends on the wavelength, in spectral transport: eta is that at the sodium D line, eta_rgb and
+// k_rgb hold Sellmeier's first three B and C (square micrometres).
+#define BSDF_DISPERSIVE (1u << 30)
+#define SODIUM_D_MICROMETRES 0.5893f
 
 // Reflections narrower than this roughness are followed by paths that look for photons, as specular
 // ones are: few photons arrive from where they look. So is ground glass of any roughness, which photons
@@ -40,9 +44,9 @@ typedef struct Bsdf {
     TexturedColor specular;    // factor on what is reflected at the interface
     TexturedColor transmittance;
     Vec3 eta_rgb; // complex index of refraction relative to the exterior, for red, green and blue
-    float unused0;
+    float sellmeier_b4; // of a dispersive dielectric, as sellmeier_c4
     Vec3 k_rgb;
-    float unused1;
+    float sellmeier_c4;
     TexturedNumber alpha_u; // roughness along the texture's u (root mean square slope, times sqrt(2))
     TexturedNumber alpha_v;
     TexturedNumber weight; // of a mask or blend

@@ -10,6 +10,7 @@
 #include "shared/ray.h"
 #include "shared/texture.h"
 #include "shared/vec2.h"
+#include "shared/wavelengths.h"
 SHARED_BEGIN
 
 typedef struct SceneGlobals {
@@ -19,8 +20,9 @@ typedef struct SceneGlobals {
     uint environment_light; // index of the constant or mapped environment, or NO_LIGHT
     int bvh_root;        // as BvhNode::child
     uint attribute_count; // distinct names of mesh attributes; attribute_ranges has so many a shape
+    Wavelengths wavelengths; // of the pass, in spectral transport
 } SceneGlobals;
-SHARED_SIZE(SceneGlobals, 32);
+SHARED_SIZE(SceneGlobals, 152);
 
 // X(element type, array name). One SceneGlobals, `globals`, stands before the lists.
 #define GEOMETRY_ARRAYS(X)                                                                         \

@@ -34,7 +34,8 @@ __kernel void shade_camera_path(SURFACE_PARAMETERS, SamplerKey key, PathRules ru
     const uint2 pixel = pixel_of_path(index, width, height);
     Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
     const float4 u = next_4d(&sampler);
-    const Scattering scattering = scattering_at(&scene, &surface, u.w);
+    Scattering scattering = scattering_at(&scene, &surface, u.w);
+    disperse(camera_hero(key, index), &path, &scattering);
     if (!is_specular(&scattering) && !is_black_side(&scattering)) {
         Ray shadow_ray;
         shadow_radiance[index] = pack(throughput * sample_direct_light(&scene, &surface, &scattering, u, true, &shadow_ray));

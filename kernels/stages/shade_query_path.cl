@@ -73,7 +73,8 @@ __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rul
     const uint2 pixel = pixel_of_path(index, width, height);
     Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
     const float4 u = next_4d(&sampler);
-    const Scattering scattering = scattering_at(&scene, &surface, u.w);
+    Scattering scattering = scattering_at(&scene, &surface, u.w);
+    disperse(camera_hero(key, index), &path, &scattering);
     if (is_black_side(&scattering)) return;
 #if DIRECT_LIGHT
     if (!is_specular(&scattering)) {

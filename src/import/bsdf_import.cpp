@@ -89,7 +89,16 @@ DielectricBsdf BsdfImporter::read_dielectric(ObjectReader& reader, bool thin)
 {
     DielectricBsdf bsdf;
     bsdf.thin = thin;
-    bsdf.int_ior = reader.ior("int_ior", "bk7");
+    if (reader.has("dispersion")) {
+        if (reader.has("int_ior")) throw SceneError(reader.where_of("int_ior"), "give a dielectric either int_ior or dispersion, not both");
+        const std::string name = reader.text("dispersion", "");
+        bsdf.dispersion = find_dispersion(name);
+        if (!bsdf.dispersion)
+            throw SceneError(reader.where_of("dispersion"), "unknown dispersive material '" + name + "'; known are " + dispersion_names());
+        bsdf.int_ior = static_cast<float>(index_at(*bsdf.dispersion, sodium_d_line));
+    } else {
+        bsdf.int_ior = reader.ior("int_ior", "bk7");
+    }
     bsdf.ext_ior = reader.ior("ext_ior", "air");
     bsdf.specular_reflectance = reflectance(reader, "specular_reflectance", {1, 1, 1});
     bsdf.specular_transmittance = reflectance(reader, "specular_transmittance", {1, 1, 1});

@@ -39,6 +39,20 @@ void set_roughness(Bsdf& bsdf, const std::optional<Roughness>& roughness)
     bsdf.alpha_v = flatten(roughness->alpha_v);
 }
 
+Vec3 first_three(const double (&values)[4])
+{
+    return {static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2])};
+}
+
+void set_dispersion(Bsdf& bsdf, const SellmeierFormula& formula)
+{
+    bsdf.flags |= BSDF_DISPERSIVE;
+    bsdf.eta_rgb = first_three(formula.b);
+    bsdf.k_rgb = first_three(formula.c);
+    bsdf.sellmeier_b4 = static_cast<float>(formula.b[3]);
+    bsdf.sellmeier_c4 = static_cast<float>(formula.c[3]);
+}
+
 // Of one description by itself; what it takes from nested ones comes later.
 struct BsdfFlattener {
     Bsdf operator()(const DiffuseBsdf& diffuse) const
@@ -56,6 +70,7 @@ struct BsdfFlattener {
         bsdf.specular = flatten(dielectric.specular_reflectance);
         bsdf.transmittance = flatten(dielectric.specular_transmittance);
         set_roughness(bsdf, dielectric.roughness);
+        if (dielectric.dispersion) set_dispersion(bsdf, *dielectric.dispersion);
         return bsdf;
     }
     Bsdf operator()(const ConductorBsdf& conductor) const
@@ -123,6 +138,11 @@ std::vector<Bsdf> flatten_bsdfs(const std::vector<BsdfDescription>& descriptions
     for (const auto& description : descriptions) bsdfs.push_back(std::visit(BsdfFlattener{}, description.model));
     for (std::size_t i = 0; i < descriptions.size(); i++) take_from_nested(descriptions[i], bsdfs, i);
     return bsdfs;
+}
+
+bool has_dispersion(std::span<const Bsdf> bsdfs)
+{
+    return std::any_of(bsdfs.begin(), bsdfs.end(), [](const Bsdf& bsdf) { return (bsdf.flags & BSDF_DISPERSIVE) != 0; });
 }
 
 uint bsdf_types(std::span<const Bsdf> bsdfs)

@@ -71,6 +71,14 @@ std::size_t Scene::triangle_count_with_copies() const
     return count;
 }
 
+bool Scene::has_dispersion() const
+{
+    return std::any_of(bsdfs.begin(), bsdfs.end(), [](const BsdfDescription& bsdf) {
+        const auto* dielectric = std::get_if<DielectricBsdf>(&bsdf.model);
+        return dielectric && dielectric->dispersion;
+    });
+}
+
 Bounds Scene::bounds() const
 {
     Bounds all;

@@ -8,6 +8,7 @@
 #include "math/bounds.h"
 #include "math/transform.h"
 #include "math/vec3.h"
+#include "scene/dispersion.h"
 #include "shared/vec2.h"
 
 #include <array>
@@ -150,6 +151,8 @@ struct DielectricBsdf {
     ColorSource specular_reflectance;
     ColorSource specular_transmittance;
     std::optional<Roughness> roughness = std::nullopt; // never of a thin one
+    // Of the interior; int_ior is its index at the sodium D line. Shows in spectral transport.
+    std::optional<SellmeierFormula> dispersion = std::nullopt;
 };
 
 // eta and k relative to the exterior medium. eta = 0 and k = 1 (material "none")
@@ -341,6 +344,7 @@ struct Scene {
     std::size_t triangle_count() const; // as stored: those of groups once
     std::size_t triangle_count_with_copies() const; // as seen
     Bounds bounds() const; // of all that is seen; around instances not tight
+    bool has_dispersion() const;
 };
 
 } // namespace sundog
