@@ -23,7 +23,11 @@ void BsdfWriter::write(ObjectWriter root, const std::string& id, const Dielectri
 {
     const char* type = bsdf.thin ? "thindielectric" : bsdf.roughness ? "roughdielectric" : "dielectric";
     ObjectWriter object = root.object("bsdf", type, "", id);
-    object.number("int_ior", bsdf.int_ior);
+    const auto dispersion = bsdf.dispersion ? name_of(*bsdf.dispersion) : std::nullopt;
+    if (dispersion)
+        object.text("dispersion", *dispersion);
+    else
+        object.number("int_ior", bsdf.int_ior);
     object.number("ext_ior", bsdf.ext_ior);
     textures_.color(object, "specular_reflectance", bsdf.specular_reflectance);
     textures_.color(object, "specular_transmittance", bsdf.specular_transmittance);

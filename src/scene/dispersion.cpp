@@ -46,6 +46,13 @@ std::optional<SellmeierFormula> find_dispersion(std::string_view name)
     return {};
 }
 
+std::optional<std::string> name_of(const SellmeierFormula& formula)
+{
+    for (const auto& entry : formulas)
+        if (std::equal(formula.b, formula.b + 4, entry.formula.b) && std::equal(formula.c, formula.c + 4, entry.formula.c)) return entry.name;
+    return {};
+}
+
 std::string dispersion_names()
 {
     std::string names;

@@ -21,6 +21,9 @@ double index_at(const SellmeierFormula& formula, double micrometres);
 // By the name of a material (case does not matter). Nothing for an unknown name.
 std::optional<SellmeierFormula> find_dispersion(std::string_view name);
 
+// The material that has this formula. Nothing for a formula that is no material's.
+std::optional<std::string> name_of(const SellmeierFormula& formula);
+
 // All names, separated by ", ", for messages.
 std::string dispersion_names();
 
