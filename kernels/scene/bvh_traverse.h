@@ -1,6 +1,7 @@
 // Traversal of the 8-wide hierarchy, one ray a work-item: closest hit and any hit.
 //
-// Define HAS_ANALYTIC where the scene has spheres or disks.
+// Define HAS_ANALYTIC where the scene has spheres, disks or cylinders, HAS_INSTANCES
+// where it has instances.
 #ifndef SUNDOG_BVH_TRAVERSE_H
 #define SUNDOG_BVH_TRAVERSE_H
 #include "math/simd8.h"
@@ -9,6 +10,9 @@
 #ifdef HAS_ANALYTIC
 #include "scene/intersect_analytic.h"
 #endif
+#ifdef HAS_INSTANCES
+#include "scene/instance_space.h"
+#endif
 
 // GEOMETRY_ARGUMENTS as functions take them: without restrict, whose scopes
 // oclgrind does not know once a function is inlined.
@@ -16,7 +20,11 @@
 #define GEOMETRY_POINTERS __global const SceneGlobals* globals GEOMETRY_ARRAYS(AS_POINTER_)
 
 // Each level leaves at most all children but one behind.
+#ifdef HAS_INSTANCES
+#define BVH_STACK_SIZE (BVH_MAX_DEPTH_INSTANCED * (BVH_WIDTH - 1) + 1)
+#else
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH * (BVH_WIDTH - 1) + 1)
+#endif
 #define BVH_EMPTY_LEAF (~0)
 
 // A ray prepared for box tests. For each axis: where in a node the bounds that
@@ -161,15 +169,41 @@ static inline void prefetch_visit(__global const BvhNode* bvh_nodes, __global co
         prefetch256(bvh_blocks + ((uint)~node >> (2 * BVH_LEAF_BLOCK_BITS)));
 }
 
+// A ray with all that the tests of boxes and triangles need of it.
+typedef struct PreparedRay {
+    Ray ray;
+    RaySlabs slabs;
+    RayShear shear;
+} PreparedRay;
+
+// For geometry within a sphere. False as prepare_slabs.
+static inline bool prepare_ray(Ray ray, Vec3 center, float radius, PreparedRay* prepared)
+{
+    const float reach = fabs(ray.origin.x - center.x) + fabs(ray.origin.y - center.y) + fabs(ray.origin.z - center.z) + radius;
+    prepared->ray = ray;
+    if (!prepare_slabs(ray, reach, &prepared->slabs)) return false;
+    prepared->shear = prepare_shear(ray);
+    return true;
+}
+
+// The next visit from the stack, or false: nothing is left that is nearer than the hit.
+static inline bool pop_visit(const BvhVisit* stack, int* depth, bool any, float t_limit, int* node)
+{
+    do {
+        if (*depth == 0) return false;
+        (*depth)--;
+    } while (!any && stack[*depth].t > t_limit);
+    *node = stack[*depth].node;
+    return true;
+}
+
 // The traversal behind both queries; `any` is a literal where it is called, so
-// that each gets its own code.
+// that each gets its own code. Instances are entered as they are met: the ray goes on in
+// the group's space, where t is the same, until the stack is down to where it was.
 static inline bool traverse_bvh(GEOMETRY_POINTERS, Ray ray, bool any, Hit* hit)
 {
-    const Vec3 center = globals->center;
-    const float reach = fabs(ray.origin.x - center.x) + fabs(ray.origin.y - center.y) + fabs(ray.origin.z - center.z) + globals->radius;
-    RaySlabs slabs;
-    if (!(ray.t_max > 0.0f) || !prepare_slabs(ray, reach, &slabs)) return false;
-    const RayShear shear = prepare_shear(ray);
+    PreparedRay current;
+    if (!(ray.t_max > 0.0f) || !prepare_ray(ray, globals->center, globals->radius, &current)) return false;
     // The largest float below t_max: t < t_max becomes t <= hit->t.
     hit->t = as_float(as_uint(ray.t_max) - 1u);
 
@@ -177,20 +211,43 @@ static inline bool traverse_bvh(GEOMETRY_POINTERS, Ray ray, bool any, Hit* hit)
     int depth = 0;
     int node = globals->bvh_root;
     bool found = false;
-    for (;;) {
-        while (node >= 0) node = enter_node(stack, &depth, bvh_nodes + node, ray.origin, &slabs, hit->t, any);
-        const uint leaf = (uint)~node;
-        __global const BvhBlock* block = bvh_blocks + (leaf >> (2 * BVH_LEAF_BLOCK_BITS));
-        found |= intersect_leaf_triangles(&block, leaf, &shear, any, hit);
-#ifdef HAS_ANALYTIC
-        if (!(any && found)) found |= intersect_leaf_analytics(block, leaf, analytics, ray, any, hit);
+#ifdef HAS_INSTANCES
+    const PreparedRay in_world = current;
+    uint instance = NO_INSTANCE;
+    int world_depth = 0; // of the stack where the instance was entered
 #endif
-        if (any && found) return true;
-        do {
-            if (depth == 0) return found;
-            depth--;
-        } while (!any && stack[depth].t > hit->t);
-        node = stack[depth].node;
+    for (;;) {
+        while (node >= 0) node = enter_node(stack, &depth, bvh_nodes + node, current.ray.origin, &current.slabs, hit->t, any);
+        const uint leaf = (uint)~node;
+#ifdef HAS_INSTANCES
+        if (is_instance_leaf(leaf)) {
+            __global const Instance* entered = instances + instance_of_leaf(leaf);
+            if (prepare_ray(ray_in_object_space(entered, ray), entered->center, entered->radius, &current)) {
+                instance = instance_of_leaf(leaf);
+                world_depth = depth;
+                node = entered->root;
+                continue;
+            }
+            current = in_world;
+        }
+#endif
+        __global const BvhBlock* block = bvh_blocks + (leaf >> (2 * BVH_LEAF_BLOCK_BITS));
+        bool found_here = intersect_leaf_triangles(&block, leaf, &current.shear, any, hit);
+#ifdef HAS_ANALYTIC
+        if (!(any && found_here)) found_here |= intersect_leaf_analytics(block, leaf, analytics, current.ray, any, hit);
+#endif
+        if (any && found_here) return true;
+        found |= found_here;
+#ifdef HAS_INSTANCES
+        if (found_here) hit->instance = instance;
+#endif
+        if (!pop_visit(stack, &depth, any, hit->t, &node)) return found;
+#ifdef HAS_INSTANCES
+        if (instance != NO_INSTANCE && depth < world_depth) {
+            instance = NO_INSTANCE;
+            current = in_world;
+        }
+#endif
         if (depth > 0) prefetch_visit(bvh_nodes, bvh_blocks, stack[depth - 1].node);
     }
 }
@@ -201,6 +258,7 @@ static inline bool intersect_closest(GEOMETRY_POINTERS, Ray ray, Hit* hit)
     hit->u = 0.0f;
     hit->v = 0.0f;
     hit->primitive = NO_PRIMITIVE;
+    hit->instance = NO_INSTANCE;
     const bool found = traverse_bvh(GEOMETRY_ARGUMENTS, ray, false, hit);
     if (!found) hit->t = ray.t_max;
     return found;

@@ -29,6 +29,7 @@ static inline bool continue_camera_path(const Surface* surface, const Scattering
     }
     if (is_black(throughput)) return false;
     scatter_path(path, &sample, throughput);
+    separate_wavelengths(scattering, sample.direction, path);
     *ray = ray_from(surface, sample.direction);
     return true;
 }
@@ -49,6 +50,7 @@ static inline bool continue_light_path(const Surface* surface, const Scattering*
     const float3 flux = unpack(path->throughput) * weight;
     if (is_black(flux)) return false;
     scatter_path(path, &sample, flux);
+    separate_wavelengths(scattering, sample.direction, path);
     *ray = ray_from(surface, sample.direction);
     return true;
 }

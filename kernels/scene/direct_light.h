@@ -15,12 +15,11 @@ static inline float emission_weight(const PathState* path, float light_pdf)
     return path->pdf_w == PDF_DELTA ? 1.0f : balance_heuristic(path->pdf_w, light_pdf);
 }
 
-// Radiance of the environment where a path leaves the scene; with `mis`, weighted as above.
-static inline float3 found_environment(const SurfaceView* scene, const PathState* path, bool mis)
+// Radiance of the environment where a path leaves the scene along `ray`; with `mis`, weighted as above.
+static inline float3 found_environment(const SurfaceView* scene, const PathState* path, Ray ray, bool mis)
 {
-    const uint light = scene->globals->constant_light;
-    if (light == NO_LIGHT) return (float3)(0.0f);
-    return unpack(scene->lights[light].emission) * (mis ? emission_weight(path, constant_light_pdf_w(scene)) : 1.0f);
+    const EnvironmentValue value = environment_value(scene, normalize(unpack(ray.direction)));
+    return is_black(value.radiance) ? value.radiance : value.radiance * (mis ? emission_weight(path, value.pdf_w) : 1.0f);
 }
 
 // Radiance that a surface emits back along the ray that found it; with `mis`, weighted as above.

@@ -29,11 +29,12 @@ static inline Ray distant_ray(const SurfaceView* scene, float3 direction, float2
     return emission_ray(unpack(scene->globals->center) + radius * (frame.s * d.x + frame.t * d.y - direction), direction);
 }
 
-// u: light, direction and position. [Veach 1997, section 8.3.1]
+// u: position, light, choice of a patch of an environment map. [Veach 1997, section 8.3.1]
 static inline EmissionSample sample_emission(const SurfaceView* scene, float4 u, float2 u_direction)
 {
-    const Light light = scene->lights[choose_light(scene, u.z)];
-    const float3 emission = unpack(light.emission) / light.probability;
+    float rest = u.z;
+    const Light light = scene->lights[choose_light(scene, &rest)];
+    const float3 emission = transport_emission(scene, unpack(light.emission)) / light.probability;
     const float disk_area = PI_F * scene->globals->radius * scene->globals->radius;
     EmissionSample sample;
     sample.from_delta_light = LIGHT_IS_DELTA(light.type);
@@ -47,9 +48,20 @@ static inline EmissionSample sample_emission(const SurfaceView* scene, float4 u,
         const float one_minus_cos = 2.0f * half_sin * half_sin;
         const float3 local_direction = sample_cone(u_direction, one_minus_cos);
         sample.ray = emission_ray(unpack(light.position), to_world(make_frame(unpack(light.direction)), local_direction));
-        sample.flux = emission * spot_falloff(&light, local_direction.z) * (2.0f * PI_F * one_minus_cos);
+        sample.flux = projected_intensity(scene, &light, unpack(sample.ray.direction)) * (2.0f * PI_F * one_minus_cos / light.probability);
         break;
     }
+#if LIGHT_OCCURS(LIGHT_PROJECTOR)
+    case LIGHT_PROJECTOR: { // uniform on the image: the intensity's and the solid angle's cos^3 cancel
+        const LightProjection projection = scene->light_projections[light.primitive];
+        const float2 place = 2.0f * u_direction - 1.0f;
+        const float3 direction = unpack(light.direction) + unpack(projection.axis_x) * (place.x * projection.half_width) +
+                                 unpack(projection.axis_y) * (place.y * projection.half_height);
+        sample.ray = emission_ray(unpack(light.position), normalize(direction));
+        sample.flux = projected_emission(scene, &light, place) * (4.0f * projection.half_width * projection.half_height / light.probability);
+        break;
+    }
+#endif
     case LIGHT_DIRECTIONAL:
         sample.ray = distant_ray(scene, unpack(light.direction), u.xy);
         sample.flux = emission * disk_area;
@@ -58,11 +70,21 @@ static inline EmissionSample sample_emission(const SurfaceView* scene, float4 u,
         sample.ray = distant_ray(scene, sample_sphere(u_direction), u.xy);
         sample.flux = emission * (4.0f * PI_F * disk_area);
         break;
+#if LIGHT_OCCURS(LIGHT_ENVMAP)
+    case LIGHT_ENVMAP: {
+        const EnvironmentMap map = scene->environment_maps[light.primitive];
+        float3 direction;
+        const EnvironmentValue value = sample_environment_map(scene, &map, u_direction, u.w, &direction);
+        sample.ray = distant_ray(scene, -direction, u.xy);
+        sample.flux = value.pdf_w > 0.0f ? transport_emission(scene, unpack(light.emission) / light.probability * value.radiance) * (disk_area / value.pdf_w) : (float3)(0.0f);
+        break;
+    }
+#endif
     default: {
         const LightPoint point = sample_light_point(scene, &light, u.xy);
         const float3 direction = to_world(make_frame(point.normal), sample_cosine_hemisphere(u_direction));
         sample.ray = emission_ray(point.position + point.normal * point.offset, direction);
-        sample.flux = emission * (PI_F * light.area);
+        sample.flux = light_point_radiance(scene, &light, &point) * (PI_F * light.area / light.probability);
         break;
     }
     }

@@ -3,8 +3,17 @@
 #define SUNDOG_SCENE_LIGHTS_H
 #include "math/frame.h"
 #include "math/warp.h"
+#include "scene/environment.h"
+#include "scene/spectral.h"
 #include "scene/surface.h"
+#include "scene/texture.h"
 #include "shared/path.h"
+
+// -D LIGHT_TYPES: bit t is set where the scene has lights of type t; the others are compiled out, where that saves.
+#ifndef LIGHT_TYPES
+#define LIGHT_TYPES 0xffffffffu
+#endif
+#define LIGHT_OCCURS(type) ((LIGHT_TYPES >> (type)) & 1u)
 
 // A light as a shaded point sees it.
 typedef struct LightSample {
@@ -14,18 +23,33 @@ typedef struct LightSample {
     float pdf_w;      // 1/sr, the light's choice included; PDF_DELTA for point-like lights
 } LightSample;
 
-// Chooses a light by power with the alias table.
-static inline uint choose_light(const SurfaceView* scene, float u)
+// Chooses a light with the alias table; u becomes what is left of it, again uniform in [0, 1).
+static inline uint choose_light(const SurfaceView* scene, float* u)
 {
     const uint count = scene->globals->light_count;
-    const float scaled = u * (float)count;
+    const float scaled = *u * (float)count;
     const uint column = min((uint)scaled, count - 1u);
     const AliasEntry entry = scene->light_alias[column];
-    return scaled - (float)column < entry.threshold ? column : entry.alias;
+    const float rest = scaled - (float)column;
+    const bool kept = rest < entry.threshold;
+    *u = kept ? rest / entry.threshold : (rest - entry.threshold) / (1.0f - entry.threshold);
+    return kept ? column : entry.alias;
+}
+
+// A light's emission times what its texture, if it has one, says at a surface: as transport computes with it.
+static inline float3 textured_emission(const SurfaceView* scene, const Light* light, const Surface* surface)
+{
+#if HAS_UV
+    const TexturedColor color = {light->emission, light->texture};
+    return transport_emission(scene, textured_color(scene, color, surface));
+#else
+    return transport_emission(scene, unpack(light->emission));
+#endif
 }
 
 // A point on an area light, uniform in area.
 typedef struct LightPoint {
+    float2 weights; // barycentric, of the second and third vertex
     float3 position;
     float3 normal;
     float offset; // as in Surface
@@ -40,6 +64,7 @@ static inline LightPoint sample_light_point(const SurfaceView* scene, const Ligh
         const float3 b = unpack(scene->positions[triangle.vertex[1]]);
         const float3 c = unpack(scene->positions[triangle.vertex[2]]);
         const float2 weights = sample_triangle(u);
+        point.weights = weights;
         point.position = a + (b - a) * weights.x + (c - a) * weights.y;
         point.normal = normalize(cross(b - a, c - a));
         point.offset = OFFSET_PER_COORDINATE * fmax(max_abs(a), fmax(max_abs(b), max_abs(c)));
@@ -68,12 +93,61 @@ static inline LightPoint sample_light_point(const SurfaceView* scene, const Ligh
     return point;
 }
 
+// Radiance of an area light at a point of it.
+static inline float3 light_point_radiance(const SurfaceView* scene, const Light* light, const LightPoint* point)
+{
+#if HAS_UV
+    if (light->texture != NO_TEXTURE) {
+        Surface surface;
+        surface.primitive = light->primitive;
+        const Hit hit = {0.0f, point->weights.x, point->weights.y, light->primitive};
+        if (light->type == LIGHT_TRIANGLE) triangle_surface(scene, hit, &surface);
+        else analytic_surface(scene, hit, point->position, &surface);
+        return textured_emission(scene, light, &surface);
+    }
+#endif
+    return transport_emission(scene, unpack(light->emission));
+}
+
+// The texture of a spot or projector at the point (x, y) of its image, in [-1, 1]^2 (kernels/shared/light.h).
+static inline float3 projected_emission(const SurfaceView* scene, const Light* light, float2 place)
+{
+    Surface surface;
+    surface.primitive = ANALYTIC_BIT; // of no mesh
+#if HAS_UV
+    surface.uv = 0.5f - 0.5f * place;
+#endif
+    return textured_emission(scene, light, &surface);
+}
+
+// Where a direction with the given cosine to the light's axis meets its image.
+static inline float2 projected_place(const LightProjection* projection, float3 direction, float cosine)
+{
+    return (float2)(dot(direction, unpack(projection->axis_x)) / projection->half_width,
+                    dot(direction, unpack(projection->axis_y)) / projection->half_height) / cosine;
+}
+
 // Fall-off of a spot at `angle` from its axis: linear between beam width and cut-off, as in Mitsuba.
 static inline float spot_falloff(const Light* light, float cos_angle)
 {
     const float angle = acos(clamp(cos_angle, -1.0f, 1.0f));
     if (angle >= light->cutoff_angle) return 0.0f;
     return angle <= light->beam_width ? 1.0f : (light->cutoff_angle - angle) / (light->cutoff_angle - light->beam_width);
+}
+
+// Radiant intensity (W/sr) of a spot or projector in a direction (unit).
+static inline float3 projected_intensity(const SurfaceView* scene, const Light* light, float3 direction)
+{
+    const float cosine = dot(direction, unpack(light->direction));
+    const float falloff = light->type == LIGHT_SPOT ? spot_falloff(light, cosine) : 1.0f;
+    if (light->type == LIGHT_SPOT && light->texture == NO_TEXTURE) return transport_emission(scene, unpack(light->emission)) * falloff;
+    if (falloff == 0.0f || cosine < 1e-4f) return (float3)(0.0f);
+    const LightProjection projection = scene->light_projections[light->primitive];
+    const float2 place = projected_place(&projection, direction, cosine);
+    const float3 emission = projected_emission(scene, light, place) * falloff;
+    if (light->type == LIGHT_SPOT) return emission;
+    // E = I cos / r^2 at r = 1 / cos.
+    return fmax(fabs(place.x), fabs(place.y)) <= 1.0f ? emission / (cosine * cosine * cosine) : (float3)(0.0f);
 }
 
 static inline Ray segment(float3 from, float3 to)
@@ -127,7 +201,7 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
             sample->direction = direction;
             sample->pdf_w = light->probability / (2.0f * PI_F * one_minus_cos);
             sample->shadow_ray = segment_to(surface, direction, &point);
-            sample->radiance = unpack(light->emission) / sample->pdf_w;
+            sample->radiance = light_point_radiance(scene, light, &point) / sample->pdf_w;
             return true;
         }
     }
@@ -138,7 +212,7 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
     const float cos_at_light = -dot(sample->direction, point.normal);
     if (!(cos_at_light > 0.0f) || !(distance_squared > 0.0f)) return false;
     sample->pdf_w = pdf_w_from_a(light->probability / light->area, distance_squared, cos_at_light);
-    sample->radiance = unpack(light->emission) / sample->pdf_w;
+    sample->radiance = light_point_radiance(scene, light, &point) / sample->pdf_w;
     sample->shadow_ray = segment_to(surface, sample->direction, &point);
     return true;
 }
@@ -146,15 +220,17 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
 // Samples the lights as seen from a surface. False: no light that way.
 static inline bool sample_light(const SurfaceView* scene, const Surface* surface, float4 u, LightSample* sample)
 {
-    const Light light = scene->lights[choose_light(scene, u.z)];
+    float rest = u.z;
+    const Light light = scene->lights[choose_light(scene, &rest)];
     switch (light.type) {
     case LIGHT_POINT:
-    case LIGHT_SPOT: {
+    case LIGHT_SPOT:
+    case LIGHT_PROJECTOR: {
         const float3 to_light = unpack(light.position) - surface->position;
         const float distance_squared = dot(to_light, to_light);
         sample->direction = to_light * rsqrt(distance_squared);
-        float3 intensity = unpack(light.emission);
-        if (light.type == LIGHT_SPOT) intensity *= spot_falloff(&light, -dot(sample->direction, unpack(light.direction)));
+        float3 intensity = transport_emission(scene, unpack(light.emission));
+        if (light.type != LIGHT_POINT) intensity = projected_intensity(scene, &light, -sample->direction);
         sample->radiance = intensity / (distance_squared * light.probability);
         sample->pdf_w = PDF_DELTA;
         sample->shadow_ray = segment(ray_origin(surface, sample->direction), unpack(light.position));
@@ -162,16 +238,26 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
     }
     case LIGHT_DIRECTIONAL:
         sample->direction = -unpack(light.direction);
-        sample->radiance = unpack(light.emission) / light.probability;
+        sample->radiance = transport_emission(scene, unpack(light.emission)) / light.probability;
         sample->pdf_w = PDF_DELTA;
         sample->shadow_ray = ray_from(surface, sample->direction);
         return true;
     case LIGHT_CONSTANT:
         sample->direction = sample_sphere(u.xy);
         sample->pdf_w = light.probability * (0.25f * INV_PI_F);
-        sample->radiance = unpack(light.emission) / sample->pdf_w;
+        sample->radiance = transport_emission(scene, unpack(light.emission)) / sample->pdf_w;
         sample->shadow_ray = ray_from(surface, sample->direction);
         return true;
+#if LIGHT_OCCURS(LIGHT_ENVMAP)
+    case LIGHT_ENVMAP: {
+        const EnvironmentMap map = scene->environment_maps[light.primitive];
+        const EnvironmentValue value = sample_environment_map(scene, &map, u.xy, rest, &sample->direction);
+        sample->pdf_w = light.probability * value.pdf_w;
+        sample->radiance = transport_emission(scene, unpack(light.emission) * value.radiance) / sample->pdf_w;
+        sample->shadow_ray = ray_from(surface, sample->direction);
+        return value.pdf_w > 0.0f;
+    }
+#endif
     default: return sample_area_light(scene, surface, &light, u.xy, sample);
     }
 }
@@ -187,7 +273,9 @@ static inline uint light_of_hit(const SurfaceView* scene, const Surface* surface
 static inline float3 emitted_radiance(const SurfaceView* scene, const Surface* surface, uint light)
 {
     const bool front = dot(surface->geometric_normal, surface->outgoing) > 0.0f;
-    return light != NO_LIGHT && front ? unpack(scene->lights[light].emission) : (float3)(0.0f);
+    if (light == NO_LIGHT || !front) return (float3)(0.0f);
+    const Light source = scene->lights[light];
+    return textured_emission(scene, &source, surface);
 }
 
 // Density (1/sr) with which sample_light, at the ray's origin, would have chosen the direction that hit
@@ -207,10 +295,25 @@ static inline float light_pdf_w(const SurfaceView* scene, const Surface* surface
     return pdf_w_from_a(light.probability / light.area, dot(to_light, to_light), fmax(cos_at_light, 1e-8f));
 }
 
-// The same for the constant environment.
-static inline float constant_light_pdf_w(const SurfaceView* scene)
+// Radiance of the environment from a direction (unit, away from the scene), and the density (1/sr) with which
+// sample_light would have chosen it. Both are zero without an environment.
+static inline EnvironmentValue environment_value(const SurfaceView* scene, float3 direction)
 {
-    return scene->lights[scene->globals->constant_light].probability * (0.25f * INV_PI_F);
+    EnvironmentValue value = {(float3)(0.0f), 0.0f};
+    const uint index = scene->globals->environment_light;
+    if (index == NO_LIGHT) return value;
+    const Light light = scene->lights[index];
+    value.radiance = (float3)(1.0f);
+    value.pdf_w = 0.25f * INV_PI_F;
+#if LIGHT_OCCURS(LIGHT_ENVMAP)
+    if (light.type == LIGHT_ENVMAP) {
+        const EnvironmentMap map = scene->environment_maps[light.primitive];
+        value = environment_map_value(scene, &map, direction);
+    }
+#endif
+    value.radiance = transport_emission(scene, value.radiance * unpack(light.emission));
+    value.pdf_w *= light.probability;
+    return value;
 }
 
 #endif

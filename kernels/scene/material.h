@@ -1,6 +1,7 @@
 // From a surface to the lobe that a path meets there.
 #ifndef SUNDOG_SCENE_MATERIAL_H
 #define SUNDOG_SCENE_MATERIAL_H
+#include "scene/dispersion.h"
 #include "scene/materials/perturbed_normal.h"
 #include "scene/materials/plastic.h"
 #include "scene/scattering.h"
@@ -67,26 +68,29 @@ static inline Scattering scattering_at(const SurfaceView* scene, const Surface* 
         else bsdf = facing_bsdf(scene, bsdf.nested[bsdf.type == BSDF_BLEND && chosen ? 1 : 0], surface, &scattering);
     }
 #endif
-    scattering.flags = (bsdf.flags & BSDF_BECKMANN) | relief;
+    scattering.flags = (bsdf.flags & (BSDF_BECKMANN | BSDF_DISPERSIVE)) | relief;
     scattering.eta = bsdf.eta;
-    scattering.eta_rgb = unpack(bsdf.eta_rgb);
-    scattering.k_rgb = unpack(bsdf.k_rgb);
+    scattering.eta_rgb = transport_reflectance(scene, unpack(bsdf.eta_rgb)); // smooth between the three: docs/spectral.md
+    scattering.k_rgb = transport_reflectance(scene, unpack(bsdf.k_rgb));
     scattering.transmittance = scattering.reflectance = (float3)(1.0f);
     scattering.alpha_u = scattering.alpha_v = 0.0f;
     scattering.tangent = (float3)(0.0f);
     scattering.lobe = bsdf.type; // the first BSDF types are lobes
     switch (bsdf.type) {
-    case BSDF_DIFFUSE: scattering.reflectance = textured_color(scene, bsdf.reflectance, surface); break;
+    case BSDF_DIFFUSE: scattering.reflectance = transport_reflectance(scene, textured_color(scene, bsdf.reflectance, surface)); break;
     case BSDF_DIELECTRIC:
     case BSDF_THIN_DIELECTRIC:
     case BSDF_ROUGH_DIELECTRIC:
-        scattering.reflectance = textured_color(scene, bsdf.specular, surface);
-        scattering.transmittance = textured_color(scene, bsdf.transmittance, surface);
+        scattering.reflectance = transport_reflectance(scene, textured_color(scene, bsdf.specular, surface));
+        scattering.transmittance = transport_reflectance(scene, textured_color(scene, bsdf.transmittance, surface));
         break;
     case BSDF_CONDUCTOR:
-    case BSDF_ROUGH_CONDUCTOR: scattering.reflectance = textured_color(scene, bsdf.specular, surface); break;
+    case BSDF_ROUGH_CONDUCTOR: scattering.reflectance = transport_reflectance(scene, textured_color(scene, bsdf.specular, surface)); break;
     default: break;
     }
+#if DISPERSION
+    if (bsdf.flags & BSDF_DISPERSIVE) scattering.eta_rgb = dispersed_eta(scene, &bsdf);
+#endif
 #if BSDF_OCCURS(BSDF_ROUGH_CONDUCTOR) || BSDF_OCCURS(BSDF_ROUGH_DIELECTRIC)
     if (bsdf.type == BSDF_ROUGH_CONDUCTOR || bsdf.type == BSDF_ROUGH_DIELECTRIC) {
         scattering.alpha_u = textured_number(scene, bsdf.alpha_u, surface);

@@ -4,6 +4,9 @@
 #include "math/frame.h"
 #include "math/vec3.h"
 #include "scene/scene_view.h"
+#ifdef HAS_INSTANCES
+#include "scene/instance_space.h"
+#endif
 
 // -D HAS_UV=1 where something in the scene asks for texture coordinates: textures, anisotropy, bumps.
 #ifndef HAS_UV
@@ -146,14 +149,44 @@ static inline void analytic_surface(const SurfaceView* scene, Hit hit, float3 po
 #endif
 }
 
+#ifdef HAS_INSTANCES
+// From the group's space into the world. The next ray starts at position +- offset * normal and is mapped back into the
+// group's space, where it must be off the surface: the offset along the normal n shrinks to offset * |M^T n|, M being
+// to_object, and must outdo the rounding of the primitive itself (the offset so far), of M times the distance from
+// the instance's origin, and, in the world, of the position.
+static inline void move_to_world(__global const Instance* instance, Surface* surface)
+{
+    const float3 coordinates = (float3)(surface->offset / OFFSET_PER_COORDINATE);
+    const float3 from_origin = to_world_extent(instance, coordinates);
+    const float3 translation = unpack(instance->translation);
+    const float3 normal = to_world_normal(instance, surface->geometric_normal);
+    const float inverse_length = 1.0f / length(normal);
+    const float mapping_back = dot(fabs(surface->geometric_normal), to_object_extent(instance, from_origin));
+    surface->offset = (surface->offset + OFFSET_PER_COORDINATE * mapping_back) * inverse_length +
+                      OFFSET_PER_COORDINATE * max_abs(from_origin + fabs(translation));
+    surface->position = to_world_vector(instance, surface->position) + translation;
+    surface->geometric_normal = normal * inverse_length;
+    surface->shading_normal = normalize(to_world_normal(instance, surface->shading_normal));
+#if HAS_UV
+    surface->dpdu = to_world_vector(instance, surface->dpdu);
+    surface->dpdv = to_world_vector(instance, surface->dpdv);
+#endif
+}
+#endif
+
 static inline Surface surface_at(const SurfaceView* scene, Ray ray, Hit hit)
 {
-    const float3 direction = unpack(ray.direction);
     Surface surface;
-    surface.outgoing = -normalize(direction);
+    surface.outgoing = -normalize(unpack(ray.direction));
     surface.primitive = hit.primitive;
-    if (hit.primitive & ANALYTIC_BIT) analytic_surface(scene, hit, unpack(ray.origin) + hit.t * direction, &surface);
+#ifdef HAS_INSTANCES
+    if (hit.instance != NO_INSTANCE) ray = ray_in_object_space(scene->instances + hit.instance, ray);
+#endif
+    if (hit.primitive & ANALYTIC_BIT) analytic_surface(scene, hit, unpack(ray.origin) + hit.t * unpack(ray.direction), &surface);
     else triangle_surface(scene, hit, &surface);
+#ifdef HAS_INSTANCES
+    if (hit.instance != NO_INSTANCE) move_to_world(scene->instances + hit.instance, &surface);
+#endif
     // A shading normal that faces away from a ray that its own face does see would turn light through
     // the surface (black rims, leaks): such a hit is shaded flat.
     if (dot(surface.shading_normal, surface.outgoing) * dot(surface.geometric_normal, surface.outgoing) <= 0.0f)

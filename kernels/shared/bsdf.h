@@ -36,6 +36,10 @@ SHARED_BEGIN
 // would shadow.
 #define BSDF_FLIPS_NORMALS 64u
 #define BSDF_SHADOWS_RELIEF 128u
+// A dielectric whose index depends on the wavelength, in spectral transport: eta is that at the sodium D line, eta_rgb and
+// k_rgb hold Sellmeier's first three B and C (square micrometres).
+#define BSDF_DISPERSIVE (1u << 30)
+#define SODIUM_D_MICROMETRES 0.5893f
 
 // Reflections narrower than this roughness are followed by paths that look for photons, as specular
 // ones are: few photons arrive from where they look. So is ground glass of any roughness, which photons
@@ -51,12 +55,12 @@ typedef struct Bsdf {
     TexturedColor specular;    // factor on what is reflected at the interface
     TexturedColor transmittance;
     Vec3 eta_rgb; // complex index of refraction relative to the exterior, for red, green and blue
-    float internal_reflectance; // of plastic: of diffuse light at the coat, from within
+    float sellmeier_b4; // of a dispersive dielectric, as sellmeier_c4
     Vec3 k_rgb;
-    float unused1;
+    float sellmeier_c4;
     TexturedNumber alpha_u; // roughness along the texture's u (root mean square slope, times sqrt(2))
     TexturedNumber alpha_v;
-    TexturedNumber weight; // of a mask or blend
+    TexturedNumber weight; // of a mask or blend; of plastic, the share of diffuse light that the coat turns back from within
     uint nested[2];
 } Bsdf;
 SHARED_SIZE(Bsdf, 128);

@@ -22,9 +22,15 @@ typedef struct BvhNode {
 SHARED_SIZE(BvhNode, 256);
 
 // A leaf's code: first_block << 6 | triangle_blocks << 3 | analytic_blocks.
-// Its triangle blocks come first, its analytic blocks follow.
+// Its triangle blocks come first, its analytic blocks follow. A leaf without blocks
+// is empty (code 0) or an instance: (index + 1) << 6.
 #define BVH_LEAF_BLOCK_BITS 3
 #define BVH_LEAF_MAX_BLOCKS 7
+#define BVH_MAX_INSTANCES ((1u << (31 - 2 * BVH_LEAF_BLOCK_BITS)) - 2u)
+
+// Scenes with instances: the root chooses between the world's own tree and the
+// tree of instances, whose leaves lead to the tree of a group.
+#define BVH_MAX_DEPTH_INSTANCED (2 * BVH_MAX_DEPTH + 1)
 
 // Eight triangles, or the indices of eight analytic primitives (then only `id`
 // is used). vertex[k][axis][lane]; ids ascend. Unused lanes repeat the last

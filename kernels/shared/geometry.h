@@ -50,5 +50,20 @@ typedef struct Shape {
 } Shape;
 SHARED_SIZE(Shape, 16);
 
+// A copy of a group of shapes. Points: world = to_world * object + translation,
+// object = to_object * (world - translation), so that what is lost in rounding goes
+// with the distance from the instance. root: of the group's tree, as
+// BvhNode::child; center and radius: of a sphere about the group, in its own space.
+typedef struct Instance {
+    Vec3 to_world[3]; // rows
+    Vec3 translation;
+    Vec3 to_object[3]; // rows of the inverse of to_world
+    Vec3 center;
+    float radius;
+    int root;
+    uint unused[2];
+} Instance;
+SHARED_SIZE(Instance, 112);
+
 SHARED_END
 #endif

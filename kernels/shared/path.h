@@ -20,6 +20,8 @@ SHARED_SIZE(PathState, 32);
 
 // A light path from a point or a direction: no camera path can hit its light.
 #define PATH_FROM_DELTA_LIGHT 1u
+// Dispersion has left the path one of its three wavelengths (kernels/scene/dispersion.h).
+#define PATH_ONE_WAVELENGTH 2u
 
 // max_depth: most edges of a whole path from light to camera, UNBOUNDED_DEPTH for no bound.
 // rr_depth: Russian roulette starts at this vertex.

@@ -16,17 +16,21 @@ SHARED_SIZE(Ray, 32);
 
 #define NO_PRIMITIVE 0xffffffffu
 #define ANALYTIC_BIT 0x80000000u
+#define NO_INSTANCE 0xffffffffu
 
 // primitive: NO_PRIMITIVE for a miss; else an index into `triangles`, or, with
 // ANALYTIC_BIT set, into `analytics`. u, v: for a triangle the barycentric
-// weights of its second and third vertex; unused otherwise.
+// weights of its second and third vertex; unused otherwise. instance: index into
+// `instances`, or NO_INSTANCE for what lies in the world itself; only programs with
+// HAS_INSTANCES write and read it.
 typedef struct Hit {
     float t;
     float u;
     float v;
     uint primitive;
+    uint instance;
 } Hit;
-SHARED_SIZE(Hit, 16);
+SHARED_SIZE(Hit, 20);
 
 SHARED_END
 #endif

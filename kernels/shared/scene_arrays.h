@@ -4,28 +4,32 @@
 #define SUNDOG_SHARED_SCENE_ARRAYS_H
 #include "shared/bsdf.h"
 #include "shared/bvh.h"
+#include "shared/environment.h"
 #include "shared/geometry.h"
 #include "shared/light.h"
 #include "shared/ray.h"
 #include "shared/texture.h"
 #include "shared/vec2.h"
+#include "shared/wavelengths.h"
 SHARED_BEGIN
 
 typedef struct SceneGlobals {
     Vec3 center; // of the bounding sphere of all geometry
     float radius;
     uint light_count;
-    uint constant_light; // index of the constant environment light, or NO_LIGHT
+    uint environment_light; // index of the constant or mapped environment, or NO_LIGHT
     int bvh_root;        // as BvhNode::child
     uint attribute_count; // distinct names of mesh attributes; attribute_ranges has so many a shape
+    Wavelengths wavelengths; // of the pass, in spectral transport
 } SceneGlobals;
-SHARED_SIZE(SceneGlobals, 32);
+SHARED_SIZE(SceneGlobals, 152);
 
 // X(element type, array name). One SceneGlobals, `globals`, stands before the lists.
 #define GEOMETRY_ARRAYS(X)                                                                         \
     X(BvhNode, bvh_nodes)                                                                          \
     X(BvhBlock, bvh_blocks)                                                                        \
-    X(AnalyticPrimitive, analytics)
+    X(AnalyticPrimitive, analytics)                                                                \
+    X(Instance, instances)
 
 #define SURFACE_ARRAYS(X)                                                                          \
     X(Triangle, triangles)                                                                         \
@@ -39,7 +43,10 @@ SHARED_SIZE(SceneGlobals, 32);
     X(Shape, shapes)                                                                               \
     X(Bsdf, bsdfs)                                                                                 \
     X(Light, lights)                                                                               \
-    X(AliasEntry, light_alias)
+    X(AliasEntry, light_alias)                                                                     \
+    X(LightProjection, light_projections)                                                          \
+    X(EnvironmentMap, environment_maps)                                                            \
+    X(AliasEntry, environment_alias)
 
 SHARED_END
 #endif

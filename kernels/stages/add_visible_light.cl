@@ -13,8 +13,8 @@ __kernel void add_visible_light(SURFACE_PARAMETERS, uint count, __global const R
     if (hits[path].primitive != NO_PRIMITIVE) {
         const Surface surface = surface_at(&scene, rays[path], hits[path]);
         emitted = emitted_radiance(&scene, &surface, light_of_hit(&scene, &surface));
-    } else if (globals->constant_light != NO_LIGHT) {
-        emitted = unpack(lights[globals->constant_light].emission);
+    } else {
+        emitted = environment_value(&scene, normalize(unpack(rays[path].direction))).radiance;
     }
     radiance[path] = pack(unpack(radiance[path]) + unpack(paths[path].throughput) * emitted);
 }

@@ -1,5 +1,8 @@
 // Adds what the camera sees first to the albedo, normal and depth channels. Reads rays and hits; updates
 // first_hits. One work-item a camera path. Used by every method, once an iteration.
+// Albedo is linear sRGB whatever light is computed with.
+#undef SPECTRAL
+#undef DISPERSION
 #include "math/hash.h"
 #include "scene/bsdf.h"
 #include "scene/camera_rays.h"

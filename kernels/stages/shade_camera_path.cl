@@ -22,7 +22,7 @@ __kernel void shade_camera_path(SURFACE_PARAMETERS, SamplerKey key, PathRules ru
     if (path.depth > rules.max_depth) return;
 
     if (hit.primitive == NO_PRIMITIVE) {
-        radiance[index] = pack(unpack(radiance[index]) + throughput * found_environment(&scene, &path, true));
+        radiance[index] = pack(unpack(radiance[index]) + throughput * found_environment(&scene, &path, rays[index], true));
         return;
     }
     const Ray ray = rays[index];
@@ -34,7 +34,8 @@ __kernel void shade_camera_path(SURFACE_PARAMETERS, SamplerKey key, PathRules ru
     const uint2 pixel = pixel_of_path(index, width, height);
     Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
     const float4 u = next_4d(&sampler);
-    const Scattering scattering = scattering_at(&scene, &surface, u.w);
+    Scattering scattering = scattering_at(&scene, &surface, u.w);
+    disperse(camera_hero(key, index), &path, &scattering);
     if (!is_specular(&scattering) && !is_black_side(&scattering)) {
         Ray shadow_ray;
         shadow_radiance[index] = pack(throughput * sample_direct_light(&scene, &surface, &scattering, u, true, &shadow_ray));

@@ -61,7 +61,7 @@ __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rul
 
     const bool mis = DIRECT_LIGHT && LOBES_MAY_BE_NARROW;
     if (hit.primitive == NO_PRIMITIVE) {
-        radiance[index] = pack(unpack(radiance[index]) + throughput * found_environment(&scene, &path, mis));
+        radiance[index] = pack(unpack(radiance[index]) + throughput * found_environment(&scene, &path, rays[index], mis));
         return;
     }
     const Ray ray = rays[index];
@@ -73,7 +73,8 @@ __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rul
     const uint2 pixel = pixel_of_path(index, width, height);
     Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
     const float4 u = next_4d(&sampler);
-    const Scattering scattering = scattering_at(&scene, &surface, u.w);
+    Scattering scattering = scattering_at(&scene, &surface, u.w);
+    disperse(camera_hero(key, index), &path, &scattering);
     if (is_black_side(&scattering)) return;
 #if DIRECT_LIGHT
     if (!is_specular(&scattering)) {

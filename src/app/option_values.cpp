@@ -58,6 +58,13 @@ std::pair<std::string, std::string> parse_address(const std::string& option, con
     return {host, std::to_string(number)};
 }
 
+std::uint64_t parse_megabytes(const std::string& option, const std::string& text)
+{
+    const std::uint64_t megabytes = parse_count(option, text);
+    if (megabytes > 1'000'000'000) throw UsageError(option + " must be at most 1000000000 MB, got " + text);
+    return megabytes * 1'000'000;
+}
+
 double parse_finite(const std::string& option, const std::string& text)
 {
     double value = 0.0;

@@ -21,6 +21,9 @@ std::uint64_t parse_count(const std::string& option, const std::string& text);
 // "HOST:PORT", the host a name or an address ("[::1]:14158" for IPv6), the port from 1 to 65535.
 std::pair<std::string, std::string> parse_address(const std::string& option, const std::string& text);
 
+// A size in whole megabytes (10^6 bytes), as bytes.
+std::uint64_t parse_megabytes(const std::string& option, const std::string& text);
+
 // The whole text as a finite number.
 double parse_finite(const std::string& option, const std::string& text);
 

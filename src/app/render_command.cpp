@@ -35,6 +35,7 @@ struct RenderOptions {
     std::string size;
     std::string device;
     std::string exposure = "0";
+    std::optional<std::string> texture_memory; // MB
     std::string progress;
     std::string stats;
     std::string checkpoint;
@@ -99,6 +100,7 @@ RenderPlan make_plan(const RenderOptions& options)
     plan.progress = choose_progress(options);
     plan.exposure_stops = static_cast<float>(parse_finite("--exposure", options.exposure));
     plan.load.defines = parse_assignments("-D", options.defines);
+    if (options.texture_memory) plan.load.texture_bytes = parse_megabytes("--texture-memory", *options.texture_memory);
     plan.settings.method = options.method;
     plan.settings.parameters = parse_assignments("--param", options.parameters);
     if (options.seed) plan.settings.seed = parse_count("--seed", *options.seed);
@@ -273,6 +275,7 @@ void add_render_command(CLI::App& app, ExitStatus& status)
     command->add_option("-s,--seed", options->seed, "Seed of the random numbers, instead of the scene's")->type_name("N");
     command->add_option("--size", options->size, "Film size in pixels, instead of the scene's")->type_name("WxH");
     command->add_option("-d,--device", options->device, "OpenCL device: index, part of the name, cpu, gpu or all")->type_name("SELECTOR");
+    command->add_option("--texture-memory", options->texture_memory, "Budget for bitmaps, default 1024; larger ones are scaled down, with a warning")->type_name("MB");
     command->add_option("--exposure", options->exposure, "Scale PNG by 2^STOPS")->type_name("STOPS");
     command->add_option("--progress", options->progress, "auto (a bar on a terminal, plain lines elsewhere), bar, plain, json or off")->type_name("MODE");
     command->add_option("--stats", options->stats, "Write counts and times as JSON")->type_name("FILE");

@@ -1,8 +1,8 @@
 #include "app/scene_summary.h"
 
 #include "methods/method.h"
-#include "scene/bvh_build.h"
 #include "scene/flat_scene.h"
+#include "scene/scene_bvh.h"
 #include "shared/film.h"
 
 #include <variant>
@@ -38,6 +38,8 @@ const char* kind(const PointEmitter&) { return "point"; }
 const char* kind(const SpotEmitter&) { return "spot"; }
 const char* kind(const DirectionalEmitter&) { return "directional"; }
 const char* kind(const ConstantEmitter&) { return "constant"; }
+const char* kind(const EnvironmentEmitter&) { return "envmap"; }
+const char* kind(const ProjectorEmitter&) { return "projector"; }
 
 template <class Variant> void count(std::map<std::string, std::size_t>& counts, const Variant& variant)
 {
@@ -60,8 +62,9 @@ template <class T> std::uint64_t bytes_of(const std::vector<T>& array) { return 
 std::uint64_t device_bytes(const FlatScene& flat, const Bvh& bvh)
 {
     return bytes_of(flat.positions) + bytes_of(flat.normals) + bytes_of(flat.triangles) + bytes_of(flat.analytics) + bytes_of(flat.shapes) + bytes_of(flat.bsdfs) +
-           bytes_of(flat.lights) + bytes_of(flat.light_alias) + bytes_of(flat.uvs) + bytes_of(flat.textures) + bytes_of(flat.texels) +
-           bytes_of(flat.attribute_ranges) + bytes_of(flat.attribute_values) + sizeof(SceneGlobals) + bytes_of(bvh.nodes) + bytes_of(bvh.blocks);
+           bytes_of(flat.lights) + bytes_of(flat.light_alias) + bytes_of(flat.light_projections) + bytes_of(flat.environment_maps) +
+           bytes_of(flat.environment_alias) + bytes_of(flat.uvs) + bytes_of(flat.textures) + bytes_of(flat.texels) + bytes_of(flat.attribute_ranges) +
+           bytes_of(flat.attribute_values) + sizeof(SceneGlobals) + bytes_of(bvh.instances) + bytes_of(bvh.nodes) + bytes_of(bvh.blocks);
 }
 
 // The same checks as before a render.
@@ -81,7 +84,7 @@ SceneSummary summarize(const Scene& scene)
 {
     check_integrator(scene.integrator);
     const FlatScene flat = flatten_scene(scene);
-    const Bvh bvh = build_bvh({flat.positions, flat.triangles, flat.analytics});
+    const Bvh bvh = build_scene_bvh(flat);
 
     SceneSummary summary;
     summary.file = scene.file;
@@ -92,6 +95,9 @@ SceneSummary summarize(const Scene& scene)
     for (const BsdfDescription& bsdf : scene.bsdfs) count(summary.bsdfs, bsdf.model);
     for (const EmitterDescription& emitter : scene.emitters) count(summary.emitters, emitter.model);
     summary.triangles = scene.triangle_count();
+    summary.triangles_with_copies = scene.triangle_count_with_copies();
+    summary.groups = scene.groups.size();
+    summary.instances = scene.instances.size();
     summary.lights = flat.lights.size();
     summary.bounds = scene.bounds();
     summary.width = scene.film.crop_width;

@@ -14,7 +14,10 @@ struct SceneSummary {
     std::map<std::string, std::size_t> shapes; // number by kind: "mesh", "sphere", "disk"
     std::map<std::string, std::size_t> bsdfs; // "diffuse", "dielectric", ...
     std::map<std::string, std::size_t> emitters; // "area", "point", ...
-    std::size_t triangles = 0;
+    std::size_t triangles = 0; // stored: those of groups once
+    std::size_t triangles_with_copies = 0; // seen: those of groups once an instance
+    std::size_t groups = 0;
+    std::size_t instances = 0;
     std::size_t lights = 0; // as they are sampled: one a primitive of an emissive shape
     Bounds bounds;
     int width = 0; // pixels of the image (the crop)

@@ -2,7 +2,7 @@
 // full disk cannot leave half of one.
 #include "base/errors.h"
 #include "film/image_codec.h"
-#include "film/tonemap.h"
+#include "math/srgb.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

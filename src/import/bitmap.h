@@ -15,4 +15,12 @@ namespace sundog
 // build, always.
 TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& wanted_at, bool raw, bool& clipped);
 
+// An environment map: linear 32-bit floats, whatever the file holds; negative and infinite values and NaN become 0, and
+// `cleaned` is set. Throws as load_bitmap.
+TexelImage load_environment(const std::filesystem::path& file, const SourceLocation& wanted_at, bool& cleaned);
+
+// The bytes of a file that load_bitmap(), or load_environment() for 32-bit floats, reads as the same texels: PNG for 8 bits
+// a channel (raw, if linear), EXR for floats. `file` is for messages. Throws FileError; in a minimal build, always.
+std::string encode_bitmap(const TexelImage& image, const std::filesystem::path& file);
+
 } // namespace sundog

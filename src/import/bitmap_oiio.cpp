@@ -1,12 +1,14 @@
 #include "import/bitmap.h"
 
-#include "scene/spectrum.h"
+#include "math/half.h"
+#include "math/srgb.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace sundog
 {
@@ -14,7 +16,8 @@ namespace sundog
 namespace
 {
 
-constexpr float largest_half = 65504.0f;
+constexpr long long max_texels = 1LL << 28;
+constexpr int max_channels = 64;
 
 [[noreturn]] void unreadable(const std::filesystem::path& file, const SourceLocation& wanted_at, std::string reason)
 {
@@ -53,9 +56,7 @@ uint half_bits(float value, bool& clipped)
         clipped = true;
         value = std::isnan(value) ? 0.0f : std::copysign(largest_half, value);
     }
-    unsigned short bits = 0;
-    OIIO::convert_pixel_values(OIIO::TypeDesc::FLOAT, &value, OIIO::TypeDesc::HALF, &bits);
-    return bits;
+    return half_from_float(value);
 }
 
 std::vector<uint> pack_halves(const std::vector<float>& pixels, int channels, bool encoded, bool& clipped)
@@ -65,21 +66,57 @@ std::vector<uint> pack_halves(const std::vector<float>& pixels, int channels, bo
     texels.reserve(2 * pixels.size() / static_cast<std::size_t>(channels));
     for (std::size_t i = 0; i < pixels.size(); i += static_cast<std::size_t>(channels)) {
         uint half[3];
-        for (std::size_t c = 0; c < 3; c++) half[c] = half_bits(encoded ? srgb_decode(pixels[i + rgb[c]]) : pixels[i + rgb[c]], clipped);
+        for (std::size_t c = 0; c < 3; c++) half[c] = half_bits(encoded ? linear_from_srgb(pixels[i + rgb[c]]) : pixels[i + rgb[c]], clipped);
         texels.push_back(half[0] | half[1] << 16);
         texels.push_back(half[2]);
     }
     return texels;
 }
 
+OIIO::TypeDesc file_type(TexelFormat format)
+{
+    switch (format) {
+    case TexelFormat::srgb8:
+    case TexelFormat::linear8:
+        return OIIO::TypeDesc::UINT8;
+    case TexelFormat::half:
+        return OIIO::TypeDesc::HALF;
+    case TexelFormat::float32:
+        return OIIO::TypeDesc::FLOAT;
+    }
+    throw std::logic_error("a texel format that cannot be written");
+}
+
+std::unique_ptr<OIIO::ImageInput> open_plane(const std::filesystem::path& file, const SourceLocation& wanted_at)
+{
+    auto input = OIIO::ImageInput::open(file.string());
+    if (!input) unreadable(file, wanted_at, OIIO::geterror());
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) unreadable(file, wanted_at, "it has no pixels in a plane");
+    // A few kilobytes of PNG can claim, and hold, gigabytes of pixels.
+    if (static_cast<long long>(spec.width) * spec.height > max_texels || spec.nchannels > max_channels)
+        unreadable(file, wanted_at, "it has more than 2^28 pixels or 64 channels");
+    return input;
+}
+
+// Red, green and blue of all texels.
+template <class T> std::vector<T> unpack(const TexelImage& image)
+{
+    constexpr std::size_t bits = 8 * sizeof(T);
+    const std::size_t words = image.words_per_texel();
+    std::vector<T> pixels;
+    pixels.reserve(3 * image.texels.size() / words);
+    for (std::size_t i = 0; i < image.texels.size(); i += words)
+        for (std::size_t c = 0; c < 3; c++) pixels.push_back(static_cast<T>(image.texels[i + c * bits / 32] >> (c * bits % 32)));
+    return pixels;
+}
+
 } // namespace
 
 TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& wanted_at, bool raw, bool& clipped)
 {
-    const auto input = OIIO::ImageInput::open(file.string());
-    if (!input) unreadable(file, wanted_at, OIIO::geterror());
+    const auto input = open_plane(file, wanted_at);
     const OIIO::ImageSpec& spec = input->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) unreadable(file, wanted_at, "it has no pixels in a plane");
     TexelImage image;
     image.width = spec.width;
     image.height = spec.height;
@@ -92,6 +129,52 @@ TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& 
     image.format = TexelFormat::half;
     image.texels = pack_halves(read_pixels<float>(*input, OIIO::TypeDesc::FLOAT, file, wanted_at), spec.nchannels, encoded, clipped);
     return image;
+}
+
+TexelImage load_environment(const std::filesystem::path& file, const SourceLocation& wanted_at, bool& cleaned)
+{
+    const auto input = open_plane(file, wanted_at);
+    const OIIO::ImageSpec& spec = input->spec();
+    TexelImage image;
+    image.width = spec.width;
+    image.height = spec.height;
+    image.format = TexelFormat::float32;
+    const bool encoded = !spec.format.is_floating_point();
+    const auto pixels = read_pixels<float>(*input, OIIO::TypeDesc::FLOAT, file, wanted_at);
+    const auto rgb = rgb_of(spec.nchannels);
+    image.texels.reserve(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    for (std::size_t i = 0; i < pixels.size(); i += static_cast<std::size_t>(spec.nchannels)) {
+        for (const std::size_t channel : rgb) {
+            float value = encoded ? linear_from_srgb(pixels[i + channel]) : pixels[i + channel];
+            if (!(value >= 0.0f) || !std::isfinite(value)) {
+                cleaned = true;
+                value = 0.0f;
+            }
+            image.texels.push_back(std::bit_cast<uint>(value));
+        }
+    }
+    return image;
+}
+
+std::string encode_bitmap(const TexelImage& image, const std::filesystem::path& file)
+{
+    const OIIO::TypeDesc type = file_type(image.format);
+    OIIO::ImageSpec spec(image.width, image.height, 3, type);
+    spec.attribute("DateTime", ""); // else OpenImageIO adds the time, and no two files are the same
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create(type == OIIO::TypeDesc::UINT8 ? "png" : "openexr");
+    const bool opened = output && output->set_ioproxy(&memory) && output->open(file.filename().string(), spec);
+    const auto write = [&](const auto& pixels) { return output->write_image(type, pixels.data()) && output->close(); };
+    bool done = opened;
+    if (opened && image.format == TexelFormat::float32)
+        done = write(unpack<uint>(image));
+    else if (opened && image.format == TexelFormat::half)
+        done = write(unpack<std::uint16_t>(image));
+    else if (opened)
+        done = write(unpack<std::uint8_t>(image));
+    if (!done) throw FileError(file.string() + ": cannot encode the image: " + (output ? output->geterror() : OIIO::geterror()));
+    return {bytes.begin(), bytes.end()};
 }
 
 } // namespace sundog

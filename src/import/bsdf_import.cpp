@@ -122,7 +122,16 @@ DielectricBsdf BsdfImporter::read_dielectric(ObjectReader& reader, bool thin)
 {
     DielectricBsdf bsdf;
     bsdf.thin = thin;
-    bsdf.int_ior = reader.ior("int_ior", "bk7");
+    if (reader.has("dispersion")) {
+        if (reader.has("int_ior")) throw SceneError(reader.where_of("int_ior"), "give a dielectric either int_ior or dispersion, not both");
+        const std::string name = reader.text("dispersion", "");
+        bsdf.dispersion = find_dispersion(name);
+        if (!bsdf.dispersion)
+            throw SceneError(reader.where_of("dispersion"), "unknown dispersive material '" + name + "'; known are " + dispersion_names());
+        bsdf.int_ior = static_cast<float>(index_at(*bsdf.dispersion, sodium_d_line));
+    } else {
+        bsdf.int_ior = reader.ior("int_ior", "bk7");
+    }
     bsdf.ext_ior = reader.ior("ext_ior", "air");
     bsdf.specular_reflectance = reflectance(reader, "specular_reflectance", {1, 1, 1});
     bsdf.specular_transmittance = reflectance(reader, "specular_transmittance", {1, 1, 1});
@@ -256,10 +265,11 @@ BumpMapBsdf BsdfImporter::read_bump_map(ObjectReader& reader)
     return map;
 }
 
-// A balanced tree of blends, so that many parts are not nested deeply.
-uint BsdfImporter::blend_of(const XmlElement& element, std::span<const WeightedBsdf> parts)
+// A balanced tree of blends, so that many parts are not nested deeply. Parts are imported as the tree needs them, in the
+// order in which they are read again when the tree has been written.
+uint BsdfImporter::blend_of(const SourceLocation& where, std::span<const WeightedBsdf> parts)
 {
-    if (parts.size() == 1) return parts.front().bsdf;
+    if (parts.size() == 1) return parts.front().bsdf ? import(*parts.front().bsdf) : add_diffuse("", where, {0, 0, 0});
     const auto half = parts.subspan(0, parts.size() / 2), rest = parts.subspan(parts.size() / 2);
     const auto sum = [](std::span<const WeightedBsdf> some) {
         return std::accumulate(some.begin(), some.end(), 0.0, [](double total, const WeightedBsdf& part) { return total + part.weight; });
@@ -267,15 +277,17 @@ uint BsdfImporter::blend_of(const XmlElement& element, std::span<const WeightedB
     const double all = sum(parts);
     BlendBsdf blend;
     blend.weight = all > 0.0 ? static_cast<float>(sum(rest) / all) : 0.0f;
-    blend.nested[0] = blend_of(element, half);
-    blend.nested[1] = blend_of(element, rest);
-    return add(element, blend);
+    blend.nested[0] = blend_of(where, half);
+    blend.nested[1] = blend_of(where, rest);
+    bsdfs_.push_back({"", where, blend});
+    return static_cast<uint>(bsdfs_.size() - 1);
 }
 
 // 0.6: a sum of BSDFs with weights of at most 1 together; what is left is black.
 BsdfImporter::Model BsdfImporter::read_mixture(ObjectReader& reader)
 {
-    const auto inside = nested(reader, 1, 32);
+    const auto inside = reader.nested("bsdf");
+    if (inside.empty()) throw SceneError(reader.where(), "a mixturebsdf needs bsdfs inside");
     const SourceLocation where = reader.where_of("weights");
     std::vector<WeightedBsdf> parts;
     double sum = 0.0;
@@ -285,14 +297,14 @@ BsdfImporter::Model BsdfImporter::read_mixture(ObjectReader& reader)
         if (!weight || *weight < 0.0 || *weight > 1.0)
             throw SceneError(where, "'weights' of a mixturebsdf must each be between 0 and 1, got '" + std::string(token) + "'");
         if (parts.size() == inside.size()) throw SceneError(where, "mixturebsdf has more weights than bsdfs inside: give one a bsdf");
-        parts.push_back({inside[parts.size()], *weight});
+        parts.push_back({inside[parts.size()].object, *weight});
         sum += *weight;
     }
     if (parts.size() < inside.size()) throw SceneError(where, "mixturebsdf has fewer weights than bsdfs inside: give one a bsdf");
     if (sum > 1.0 + 1e-6) throw SceneError(where, "the weights of a mixturebsdf must not add up to more than 1");
-    if (sum < 1.0 - 1e-6) parts.push_back({add_diffuse("", reader.where(), {0, 0, 0}), 1.0 - sum});
+    if (sum < 1.0 - 1e-6) parts.push_back({nullptr, 1.0 - sum});
     if (parts.size() == 1) parts.push_back({parts.front().bsdf, 0.0});
-    const uint blend = blend_of(reader.element(), parts);
+    const uint blend = blend_of(reader.where(), parts);
     Model model = bsdfs_[blend].model;
     bsdfs_.pop_back(); // the caller adds it
     return model;

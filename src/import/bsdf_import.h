@@ -36,14 +36,14 @@ private:
     MaskBsdf read_mask(ObjectReader& reader);
     BlendBsdf read_blend(ObjectReader& reader);
     struct WeightedBsdf {
-        uint bsdf;
+        const XmlElement* bsdf; // nullptr: black
         double weight;
     };
     NormalMapBsdf read_normal_map(ObjectReader& reader);
     BumpMapBsdf read_bump_map(ObjectReader& reader);
     template <class Map> void read_relief(ObjectReader& reader, Map& map);
     Model read_mixture(ObjectReader& reader);
-    uint blend_of(const XmlElement& element, std::span<const WeightedBsdf> parts);
+    uint blend_of(const SourceLocation& where, std::span<const WeightedBsdf> parts);
     ColorSource reflectance(ObjectReader& reader, std::string_view name, Vec3 fallback) { return textures_.color(reader, name, fallback, ColorRole::reflectance); }
     // Several BSDFs inside; throws SceneError unless there are between least and most.
     std::vector<uint> nested(ObjectReader& reader, std::size_t least, std::size_t most);

@@ -2,6 +2,7 @@
 
 #include "import/text_file.h"
 #include "import/values.h"
+#include "math/srgb.h"
 #include "scene/spectrum.h"
 
 #include <algorithm>
@@ -67,7 +68,7 @@ Vec3 read_rgb(const XmlElement& element)
 Vec3 read_srgb(const XmlElement& element)
 {
     const Vec3 encoded = read_rgb(element);
-    return {srgb_decode(encoded.x), srgb_decode(encoded.y), srgb_decode(encoded.z)};
+    return {linear_from_srgb(encoded.x), linear_from_srgb(encoded.y), linear_from_srgb(encoded.z)};
 }
 
 void check_samples(const Samples& samples, const SourceLocation& where)
@@ -146,7 +147,7 @@ Vec3 read_spectrum_object(const XmlElement& element, const SceneIndex& index)
         else if (name == "scale")
             scale = number_attribute(child, "value");
         else
-            index.warn(child.where, "parameter '" + name + "' of spectrum '" + type + "' is not known and was ignored");
+            index.warn(child.where, "parameter '" + name + "' of spectrum '" + type + "' is not known and was ignored", WarningKind::ignored);
     }
     if (!main) throw SceneError(element.where, "spectrum '" + type + "' needs a <float name=\"" + wanted + "\">");
     const double value = number_attribute(*main, "value");
@@ -163,7 +164,12 @@ Vec3 read_spectrum(const XmlElement& element, const SceneIndex& index, ColorRole
     if (!value == !filename) throw SceneError(element.where, "<spectrum> needs either value or filename");
     if (filename) return reduce(read_spectrum_file(index.find_file(*filename, element.where), element.where), role);
     const auto words = tokens(*value);
-    if (words.size() == 1 && words[0].find(':') == std::string_view::npos) return gray(number_attribute(element, "value"));
+    if (words.size() == 1 && words[0].find(':') == std::string_view::npos) {
+        const double number = number_attribute(element, "value");
+        // The same at all wavelengths: grey where it reflects, but equal-energy white where it shines (0.6: grey).
+        if (role != ColorRole::emission || index.legacy()) return gray(number);
+        return linear_srgb_from_xyz(number, number, number);
+    }
     return reduce(parse_pairs(element, words), role);
 }
 
@@ -195,7 +201,7 @@ Vec3 read_color(const XmlElement& element, const SceneIndex& index, ColorRole ro
         return color;
     }
     if (negative || max_component(color) > 1.0f) {
-        index.warn(element.where, "'" + name + "' is outside of [0, 1], where energy is conserved, and was clamped");
+        index.warn(element.where, "'" + name + "' is outside of [0, 1], where energy is conserved, and was clamped", WarningKind::approximated);
         return min(max(color, Vec3{0, 0, 0}), Vec3{1, 1, 1});
     }
     return color;

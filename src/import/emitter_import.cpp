@@ -1,6 +1,11 @@
 #include "import/emitter_import.h"
 
+#include "import/bitmap.h"
+#include "import/sensor_import.h"
+#include "math/direction.h"
+
 #include <numbers>
+#include <utility>
 
 namespace sundog
 {
@@ -26,20 +31,52 @@ PointEmitter read_point(ObjectReader& reader)
     return emitter;
 }
 
-SpotEmitter read_spot(ObjectReader& reader)
+// Unit axes of to_world; throws SceneError where it shears or scales unevenly.
+void set_axes(const Transform& to_world, const SourceLocation& where, Vec3& x, Vec3& y, Vec3& z)
+{
+    if (!to_world.uniform_scale()) throw SceneError(where, "to_world of a light with an image may only rotate, reflect, move and scale evenly");
+    x = direction_of(to_world.vector({1, 0, 0}));
+    y = direction_of(to_world.vector({0, 1, 0}));
+    z = direction_of(to_world.vector({0, 0, 1}));
+}
+
+ProjectorEmitter read_projector(ObjectReader& reader, TextureImporter& textures)
+{
+    ProjectorEmitter emitter;
+    const Transform to_world = reader.transform("to_world");
+    set_axes(to_world, reader.where_of("to_world"), emitter.axis_x, emitter.axis_y, emitter.axis_z);
+    emitter.position = to_world.point({0, 0, 0});
+    const ColorSource image = textures.color(reader, "irradiance", {1, 1, 1}, ColorRole::emission);
+    emitter.texture = image.texture;
+    const double scale = reader.number("scale", 1.0);
+    if (!(scale >= 0.0)) throw SceneError(reader.where_of("scale"), "scale of a projector must be >= 0");
+    // Mitsuba's irradiance is in units of pi.
+    emitter.irradiance = image.value * static_cast<float>(scale * std::numbers::pi);
+    const double aspect = image.texture ? textures.aspect(*image.texture) : 1.0;
+    emitter.half_width = static_cast<float>(read_tan_half_x(reader, aspect));
+    emitter.half_height = static_cast<float>(emitter.half_width / aspect);
+    return emitter;
+}
+
+SpotEmitter read_spot(ObjectReader& reader, TextureImporter& textures)
 {
     SpotEmitter emitter;
     const Transform to_world = reader.transform("to_world");
     emitter.position = to_world.point({0, 0, 0});
-    emitter.direction = normalize(to_world.vector({0, 0, 1}));
+    emitter.direction = direction_of(to_world.vector({0, 0, 1}));
     emitter.intensity = reader.color("intensity", {1, 1, 1}, ColorRole::emission);
-    reader.refuse("texture", "remove it");
+    const ColorSource texture = textures.color(reader, "texture", {1, 1, 1}, ColorRole::emission);
+    emitter.texture = texture.texture;
+    emitter.intensity = emitter.intensity * texture.value;
+    if (emitter.texture) set_axes(to_world, reader.where_of("to_world"), emitter.axis_x, emitter.axis_y, emitter.direction);
     const double cutoff = reader.number("cutoff_angle", 20.0);
     const double beam = reader.number("beam_width", 0.75 * cutoff);
     if (!(cutoff > 0.0 && cutoff < 180.0))
         throw SceneError(reader.where_of("cutoff_angle"), "cutoff_angle of a spot must be in (0, 180) degrees");
     if (!(beam >= 0.0 && beam <= cutoff))
         throw SceneError(reader.where_of("beam_width"), "beam_width of a spot must be between 0 and its cutoff_angle");
+    if (emitter.texture && !(cutoff < 90.0))
+        throw SceneError(reader.where_of("cutoff_angle"), "cutoff_angle of a spot with a texture must be below 90 degrees");
     emitter.cutoff_angle = static_cast<float>(cutoff) * degree;
     emitter.beam_width = static_cast<float>(beam) * degree;
     return emitter;
@@ -52,16 +89,50 @@ DirectionalEmitter read_directional(ObjectReader& reader)
         throw SceneError(reader.where_of("to_world"), "give a directional emitter either direction or to_world, not both");
     const Transform to_world = reader.transform("to_world");
     const Vec3 direction = reader.vector("direction").value_or(to_world.vector({0, 0, 1}));
-    const double length = std::hypot(direction.x, direction.y, direction.z);
-    if (!(length > 0.0)) throw SceneError(reader.where_of("direction"), "direction of a directional emitter must not be zero");
-    emitter.direction = direction / static_cast<float>(length);
+    if (direction == Vec3{0, 0, 0}) throw SceneError(reader.where_of("direction"), "direction of a directional emitter must not be zero");
+    emitter.direction = direction_of(direction);
     emitter.irradiance = reader.color("irradiance", {1, 1, 1}, ColorRole::emission);
     return emitter;
 }
 
+EnvironmentEmitter read_environment(ObjectReader& reader)
+{
+    EnvironmentEmitter emitter;
+    if (reader.has("bitmap")) throw SceneError(reader.where_of("bitmap"), "an envmap takes its image from a file: give <string name=\"filename\">");
+    const SourceLocation where = reader.where_of("filename");
+    const auto file = reader.index().find_file(reader.text("filename", ""), where);
+    if (reader.number("gamma", -1.0) != -1.0)
+        throw SceneError(reader.where_of("gamma"), "'gamma' of an envmap must be -1 (as the file says): convert the image");
+    bool cleaned = false;
+    emitter.image = std::make_shared<const TexelImage>(load_environment(file, where, cleaned));
+    if (cleaned) reader.index().warn(where, "values of '" + file.string() + "' that are negative or not finite count as 0", WarningKind::approximated);
+    emitter.scale = static_cast<float>(reader.number("scale", 1.0));
+    if (!(emitter.scale >= 0.0f)) throw SceneError(reader.where_of("scale"), "scale of an envmap must be >= 0");
+    const Transform to_world = reader.transform("to_world");
+    set_axes(to_world, reader.where_of("to_world"), emitter.axis_x, emitter.axis_y, emitter.axis_z);
+    for (const char* name : {"mis_compensation", "cache"}) reader.ignore(name, "it does not change the image");
+    return emitter;
+}
+
+// Says, for emitters that are not supported, what to use instead.
+[[noreturn]] void refuse_type(const ObjectReader& reader)
+{
+    constexpr std::pair<const char*, const char*> cures[] = {
+        {"sky", "render it to a latitude-longitude image and use that in an envmap"},
+        {"sun", "use a directional emitter, or an envmap whose image has the sun in it"},
+        {"sunsky", "render it to a latitude-longitude image and use that in an envmap"},
+        {"collimated", "use a spot with a small cutoff_angle, or a directional emitter behind a hole"},
+        {"directionalarea", "use a directional emitter behind a hole of that shape"},
+        {"volumelight", "use an area emitter on the volume's surface"},
+    };
+    for (const auto& [type, cure] : cures)
+        if (reader.type() == type) throw SceneError(reader.where(), "emitter plugin '" + reader.type() + "' is not supported: " + cure);
+    reader.unsupported("area (inside a shape), point, spot, directional, constant, envmap, projector");
+}
+
 } // namespace
 
-EmitterDescription import_emitter(const XmlElement& element, const SceneIndex& index)
+EmitterDescription import_emitter(const XmlElement& element, const SceneIndex& index, TextureImporter& textures)
 {
     ObjectReader reader(element, index);
     const std::string type = reader.type();
@@ -70,26 +141,32 @@ EmitterDescription import_emitter(const XmlElement& element, const SceneIndex& i
     if (type == "point")
         description.model = read_point(reader);
     else if (type == "spot")
-        description.model = read_spot(reader);
+        description.model = read_spot(reader, textures);
     else if (type == "directional")
         description.model = read_directional(reader);
     else if (type == "constant")
         description.model = ConstantEmitter{reader.color("radiance", {1, 1, 1}, ColorRole::emission)};
+    else if (type == "projector")
+        description.model = read_projector(reader, textures);
+    else if (type == "envmap")
+        description.model = read_environment(reader);
     else if (type == "area")
         throw SceneError(element.where, "an area emitter must be inside the <shape> that emits");
     else
-        reader.unsupported("area (inside a shape), point, spot, directional, constant");
+        refuse_type(reader);
     ignore_sampling_weight(reader);
     reader.finish();
     return description;
 }
 
-AreaEmitter import_area_emitter(const XmlElement& element, const SceneIndex& index)
+AreaEmitter import_area_emitter(const XmlElement& element, const SceneIndex& index, TextureImporter& textures)
 {
     ObjectReader reader(element, index);
+    if (reader.type() == "directionalarea") refuse_type(reader);
     if (reader.type() != "area")
         throw SceneError(element.where, "emitter plugin '" + reader.type() + "' cannot be inside a shape: only area emitters can");
-    const AreaEmitter emitter{reader.color("radiance", {1, 1, 1}, ColorRole::emission)};
+    const ColorSource radiance = textures.color(reader, "radiance", {1, 1, 1}, ColorRole::emission);
+    const AreaEmitter emitter{radiance.value, radiance.texture};
     ignore_sampling_weight(reader);
     reader.finish();
     return emitter;

@@ -64,7 +64,7 @@ void read_type(ObjectReader& reader, Film& film)
 {
     const std::string type = reader.type();
     const auto taken_as_hdrfilm = [&](const std::string& reason) {
-        reader.index().warn(reader.where(), "film '" + type + "' is taken as hdrfilm: " + reason);
+        reader.index().warn(reader.where(), "film '" + type + "' is taken as hdrfilm: " + reason, WarningKind::approximated);
     };
     if (type == "ldrfilm") {
         taken_as_hdrfilm("exposure is chosen when the image is written");
@@ -105,9 +105,12 @@ Film import_film(ObjectReader& reader)
         ObjectReader filter_reader(*filter->object, reader.index());
         film.filter = read_filter(filter_reader);
     }
-    for (const char* name :
-         {"file_format", "pixel_format", "component_format", "banner", "attach_log", "high_quality_edges", "sample_border", "compensate",
-          "label_font", "gamma", "exposure", "tonemap_method", "key", "burn", "digits", "variable"})
+    // Samples always come from beyond the border too, which is what true asks for.
+    if (!reader.boolean("sample_border", true))
+        reader.index().warn(reader.where_of("sample_border"),
+                            "sample_border is taken as true: pixels at the border get samples from both of its sides");
+    for (const char* name : {"file_format", "pixel_format", "component_format", "banner", "attach_log", "high_quality_edges", "compensate",
+                             "label_font", "gamma", "exposure", "tonemap_method", "key", "burn", "digits", "variable"})
         reader.ignore(name, "how the image is written is chosen on the command line");
     reader.finish();
     return film;

@@ -30,7 +30,7 @@ void import_integrator(const XmlElement& element, const SceneIndex& index, Integ
     ObjectReader reader(element, index);
     for (const auto& child : element.children) {
         if (child.tag != "integrator") continue; // in place: a <ref> could lead back here
-        index.warn(element.where, "integrator '" + reader.type() + "' is ignored: the one inside it is rendered");
+        index.warn(element.where, "integrator '" + reader.type() + "' is ignored: the one inside it is rendered", WarningKind::ignored);
         import_integrator(child, index, request);
         return;
     }

@@ -28,6 +28,7 @@ bool is_degenerate(const TriangleMesh& mesh, const std::array<uint, 3>& t)
 
 void transform_mesh(TriangleMesh& mesh, const Transform& to_world, bool flip)
 {
+    if (to_world.is_identity() && !flip) return; // which arithmetic would round
     for (auto& p : mesh.positions) p = to_world.point(p);
     for (auto& n : mesh.normals) {
         if (n == Vec3{0, 0, 0}) continue;

@@ -47,7 +47,7 @@ void set_normals(ObjectReader& reader, TriangleMesh& mesh, bool flat_in_file)
 
 void finish_file_mesh(ObjectReader& reader, MeshFile& file, std::vector<int>& of_triangle, const std::filesystem::path& path)
 {
-    for (const auto& warning : file.warnings) reader.index().warn({path.string(), 0}, warning);
+    for (const Warning& warning : file.warnings) reader.index().warn({path.string(), 0}, warning.text, warning.kind);
     finish_mesh(reader, file.mesh, of_triangle, path.string());
     set_normals(reader, file.mesh, file.face_normals);
 }

@@ -92,12 +92,14 @@ void complete_normals(TriangleMesh& mesh)
             n = around[i].sum;
             if (!(dot(n, n) > 1e-12)) n = around[i].any; // opposite faces that cancel out
         }
-        double length = std::sqrt(dot(n, n));
-        if (!(length > 0.0)) {
-            n = {0, 0, 1}; // no triangle uses the vertex
-            length = 1.0;
-        }
-        normal = {static_cast<float>(n[0] / length), static_cast<float>(n[1] / length), static_cast<float>(n[2] / length)};
+        const double squared = dot(n, n);
+        constexpr double rounding = 1e-6; // as in direction_and_length(), whose contract holds here too
+        if (std::abs(squared - 1.0) <= rounding)
+            normal = {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
+        else if (const double length = std::sqrt(squared); length > 0.0)
+            normal = {static_cast<float>(n[0] / length), static_cast<float>(n[1] / length), static_cast<float>(n[2] / length)};
+        else
+            normal = {0, 0, 1}; // no triangle uses the vertex
     }
 }
 

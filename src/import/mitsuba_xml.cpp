@@ -2,9 +2,11 @@
 
 #include "import/bsdf_import.h"
 #include "import/emitter_import.h"
+#include "import/instance_import.h"
 #include "import/integrator_import.h"
 #include "import/sensor_import.h"
 #include "import/shape_import.h"
+#include "import/texture_budget.h"
 #include "scene/validate.h"
 
 namespace sundog
@@ -19,15 +21,18 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
 
     const auto sensors = root.nested("sensor");
     if (sensors.empty()) throw SceneError({xml.file, 0}, "the scene has no <sensor>: add one, as in <sensor type=\"perspective\">");
-    if (sensors.size() > 1) index.warn(sensors[1].where, "the scene has several sensors; only the first is rendered");
+    if (sensors.size() > 1) index.warn(sensors[1].where, "the scene has several sensors; only the first is rendered", WarningKind::ignored);
     import_sensor(*sensors.front().object, index, scene);
 
     if (const auto integrator = root.single("integrator")) import_integrator(*integrator->object, index, scene.integrator);
 
     TextureImporter textures(index, scene.textures);
     BsdfImporter bsdfs(index, textures, scene.bsdfs);
-    for (const auto& shape : root.nested("shape")) import_shape(*shape.object, index, bsdfs, scene);
-    for (const auto& emitter : root.nested("emitter")) scene.emitters.push_back(import_emitter(*emitter.object, index));
+    InstanceImporter instances(index, bsdfs, textures, scene);
+    for (const auto& shape : root.nested("shape"))
+        if (!instances.import(*shape.object)) import_shape(*shape.object, index, bsdfs, textures, scene);
+    instances.finish();
+    for (const auto& emitter : root.nested("emitter")) scene.emitters.push_back(import_emitter(*emitter.object, index, textures));
 
     // Declared for those who refer to them, who complain about what they cannot use.
     for (const char* tag : {"bsdf", "texture", "medium", "volume", "phase"}) root.nested(tag);
@@ -43,6 +48,7 @@ LoadedScene load_scene(const std::filesystem::path& file, const LoadOptions& opt
     const XmlScene xml = read_scene_xml(file, options.defines, loaded.warnings);
     const SceneIndex index(xml, loaded.warnings);
     import_objects(xml, index, loaded.scene);
+    fit_texture_budget(loaded.scene, options.texture_bytes, loaded.warnings);
     validate_scene(loaded.scene, loaded.warnings);
     return loaded;
 }

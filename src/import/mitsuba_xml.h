@@ -4,8 +4,14 @@
 // crop; shapes obj, ply, serialized, rectangle, cube, sphere, disk and cylinder; BSDFs diffuse, dielectric, thindielectric, conductor,
 // twosided and null; emitters area, point, spot, directional and constant; rgb, srgb, spectrum and blackbody colours;
 // default, $name, include, path, ref and alias. The integrator is kept as text for the method that it names.
+//
+// Files: a scene may refer to any file by an absolute path or one with .. in it, as users' scenes do; a file's content is
+// never shown but as the word that a message quotes. Only regular files are opened, of bounded size, and neither cyclic
+// or nested includes nor parameters within parameters can exhaust the memory; XML entities beyond the five predefined
+// ones are left as they are.
 #pragma once
 
+#include "base/warning.h"
 #include "scene/scene.h"
 
 #include <filesystem>
@@ -18,11 +24,12 @@ namespace sundog
 
 struct LoadOptions {
     std::map<std::string, std::string> defines; // -D NAME=VALUE: override the scene's <default>s
+    std::uint64_t texture_bytes = std::uint64_t{1} << 30; // budget; larger bitmaps are scaled down
 };
 
 struct LoadedScene {
     Scene scene;
-    std::vector<std::string> warnings; // one line each, "FILE:LINE: what was ignored, clamped or dropped"
+    std::vector<Warning> warnings; // in the order of the file: what was ignored, clamped or dropped
 };
 
 // Throws SceneError, with file and line, for a file that cannot be read (meshes and includes too), is malformed, asks

@@ -209,7 +209,7 @@ private:
             for (std::size_t i = 0; i < result_.materials.size(); i++)
                 if (result_.materials[i].name == name) number_of[static_cast<std::size_t>(used)] = static_cast<int>(i);
             if (number_of[static_cast<std::size_t>(used)] < 0)
-                result_.warnings.push_back("material '" + name + "' is in none of the material libraries");
+                result_.warnings.emplace_back("material '" + name + "' is in none of the material libraries", WarningKind::approximated);
         }
         for (int& m : result_.material_of_triangle)
             if (m >= 0) m = number_of[static_cast<std::size_t>(m)];

@@ -25,11 +25,11 @@ void append_library(const std::filesystem::path& file, ObjFile& result)
     for (const auto& material : materials) {
         result.materials.push_back({material.name, {material.diffuse[0], material.diffuse[1], material.diffuse[2]}});
         if (!material.diffuse_texname.empty())
-            result.warnings.push_back("material '" + material.name + "': texture '" + material.diffuse_texname +
-                                      "' is not supported, using Kd");
+            result.warnings.emplace_back("material '" + material.name + "': texture '" + material.diffuse_texname +
+                                      "' is not supported, using Kd", WarningKind::approximated);
         const bool emits = material.emission[0] > 0 || material.emission[1] > 0 || material.emission[2] > 0;
         if (emits || material.dissolve < 1.0f || material.illum >= 3)
-            result.warnings.push_back("material '" + material.name + "': only its diffuse colour is used");
+            result.warnings.emplace_back("material '" + material.name + "': only its diffuse colour is used", WarningKind::approximated);
     }
 }
 
@@ -48,7 +48,7 @@ void append_materials(const std::filesystem::path& obj_file, std::string_view na
         try {
             append_library(file, result);
         } catch (const SceneError& error) {
-            result.warnings.push_back(std::string("material library: ") + error.what());
+            result.warnings.emplace_back(std::string("material library: ") + error.what(), WarningKind::ignored);
         }
     }
 }

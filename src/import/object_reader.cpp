@@ -212,7 +212,7 @@ void ObjectReader::ignore(std::string_view name, const std::string& reason)
 {
     const XmlElement* value = find(name);
     if (!value || !used_.insert(value).second) return;
-    index_.warn(value->where, "parameter '" + std::string(name) + "' of " + describe() + " is ignored: " + reason);
+    index_.warn(value->where, "parameter '" + std::string(name) + "' of " + describe() + " is ignored: " + reason, WarningKind::ignored);
 }
 
 void ObjectReader::refuse(std::string_view name, const std::string& reason)
@@ -226,7 +226,8 @@ void ObjectReader::finish()
     for (const auto& child : element_.children) {
         if (used_.contains(&child)) continue;
         if (is_value_tag(child.tag)) {
-            index_.warn(child.where, "parameter '" + child.parameter_name() + "' of " + describe() + " is not known and was ignored");
+            index_.warn(child.where, "parameter '" + child.parameter_name() + "' of " + describe() + " is not known and was ignored",
+                        WarningKind::ignored);
             continue;
         }
         const XmlElement& object = child.tag == "ref" ? index_.resolve(child) : child;

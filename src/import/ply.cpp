@@ -4,7 +4,7 @@
 #include "import/ply_body.h"
 #include "import/polygon.h"
 #include "import/text_file.h"
-#include "scene/spectrum.h"
+#include "math/srgb.h"
 
 #include <cmath>
 
@@ -55,7 +55,7 @@ public:
                 if (element.name == "face")
                     faces = body_;
                 else if (element.count > 0)
-                    file_.warnings.push_back("elements '" + element.name + "' of the PLY file are not used");
+                    file_.warnings.emplace_back("elements '" + element.name + "' of the PLY file are not used", WarningKind::ignored);
                 body_.skip(element);
             }
         }
@@ -170,8 +170,9 @@ private:
         if (!found.unused.empty()) {
             std::string names;
             for (const auto& name : found.unused) names += (names.empty() ? "'" : ", '") + name + "'";
-            file_.warnings.push_back(names + " of the elements '" + element.name + "' of the PLY file " +
-                                     (found.unused.size() == 1 ? "is" : "are") + " not used");
+            file_.warnings.emplace_back(names + " of the elements '" + element.name + "' of the PLY file " +
+                                     (found.unused.size() == 1 ? "is" : "are") + " not used",
+                                     WarningKind::ignored);
         }
         return first;
     }
@@ -194,7 +195,7 @@ private:
         const float value = is_integer ? static_cast<float>(row_[property] / largest) : row_[property];
         // Mitsuba 3 decodes all integers, 0.6 only colours.
         const bool encoded = options_.colors == PlyColors::by_type ? is_integer : is_color && options_.colors == PlyColors::encoded;
-        return encoded ? srgb_decode(value) : value;
+        return encoded ? linear_from_srgb(value) : value;
     }
 
     PlyHeader header_;

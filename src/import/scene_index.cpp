@@ -13,7 +13,7 @@ bool is_object_tag(std::string_view tag)
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 
-SceneIndex::SceneIndex(const XmlScene& scene, std::vector<std::string>& warnings) : scene_(scene), warnings_(warnings)
+SceneIndex::SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings) : scene_(scene), warnings_(warnings)
 {
     collect(scene.root);
 }

@@ -1,6 +1,7 @@
 // What the parts of an importer share: objects by id, files by name, and the list of warnings.
 #pragma once
 
+#include "base/warning.h"
 #include "import/xml_document.h"
 
 #include <map>
@@ -15,7 +16,7 @@ class SceneIndex
 {
 public:
     // Keeps references to both. Throws SceneError for an id that is given twice.
-    SceneIndex(const XmlScene& scene, std::vector<std::string>& warnings);
+    SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings);
 
     // The object that a <ref> means, through any <alias>. Throws SceneError for unknown ids.
     const XmlElement& resolve(const XmlElement& reference) const;
@@ -24,7 +25,10 @@ public:
     // including file. Throws SceneError naming the paths tried.
     std::filesystem::path find_file(const std::string& name, const SourceLocation& where) const;
 
-    void warn(const SourceLocation& where, const std::string& message) const { warnings_.push_back(where.prefix() + message); }
+    void warn(const SourceLocation& where, const std::string& message, WarningKind kind = WarningKind::note) const
+    {
+        warnings_.emplace_back(where.prefix() + message, kind);
+    }
     bool legacy() const { return scene_.legacy; }
 
 private:
@@ -32,7 +36,7 @@ private:
     void add(const std::string& id, const XmlElement& element);
 
     const XmlScene& scene_;
-    std::vector<std::string>& warnings_;
+    std::vector<Warning>& warnings_;
     std::map<std::string, const XmlElement*, std::less<>> objects_; // an <alias> stands for itself
 };
 

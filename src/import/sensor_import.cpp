@@ -1,6 +1,7 @@
 #include "import/sensor_import.h"
 
 #include "import/text_file.h"
+#include "math/direction.h"
 
 #include <cmath>
 #include <numbers>
@@ -35,7 +36,8 @@ std::string read_fov_axis(ObjectReader& reader, double aspect)
     throw SceneError(reader.where_of("fov_axis"), "fov_axis must be x, y, diagonal, smaller or larger, got '" + axis + "'");
 }
 
-// Tangent of half the horizontal field of view.
+} // namespace
+
 double read_tan_half_x(ObjectReader& reader, double aspect)
 {
     const double diagonal_to_x = 1.0 / std::sqrt(1.0 + 1.0 / (aspect * aspect));
@@ -56,15 +58,20 @@ double read_tan_half_x(ObjectReader& reader, double aspect)
     return tangent;
 }
 
+namespace
+{
+
 // Position and axes, whatever their lengths in to_world are.
 void set_pose(const Transform& to_world, const SourceLocation& where, Sensor& sensor)
 {
     sensor.position = to_world.point({0, 0, 0});
     if (!is_finite(sensor.position)) throw SceneError(where, "the position of the sensor is too large for 32-bit numbers");
-    sensor.axis_z = normalize(to_world.vector({0, 0, 1}));
-    const Vec3 y = to_world.vector({0, 1, 0});
-    sensor.axis_y = normalize(y - sensor.axis_z * dot(y, sensor.axis_z));
-    // Exactly perpendicular; a reflection in to_world mirrors the image.
+    sensor.axis_z = direction_of(to_world.vector({0, 0, 1}));
+    sensor.axis_y = direction_of(to_world.vector({0, 1, 0}));
+    constexpr float rounding = 1e-6f; // of the cosine of axes that are perpendicular
+    if (const float lean = dot(sensor.axis_y, sensor.axis_z); std::abs(lean) > rounding)
+        sensor.axis_y = direction_of(sensor.axis_y - sensor.axis_z * lean);
+    // A reflection in to_world mirrors the image.
     const Vec3 x = cross(sensor.axis_y, sensor.axis_z);
     sensor.axis_x = to_world.determinant() < 0.0 ? -x : x;
 }
@@ -83,7 +90,7 @@ void read_perspective(ObjectReader& reader, const SceneIndex& index, const Film&
     const auto scale = to_world.uniform_scale();
     const SourceLocation where = reader.where_of("to_world");
     if (!scale) throw SceneError(where, "to_world of a sensor must not shear or scale unevenly: use translate, rotate and lookat");
-    if (std::abs(*scale - 1.0) > 1e-3) index.warn(where, "the scale in to_world of a sensor is ignored");
+    if (std::abs(*scale - 1.0) > 1e-3) index.warn(where, "the scale in to_world of a sensor is ignored", WarningKind::ignored);
     set_pose(to_world, where, sensor);
     sensor.fov_x = static_cast<float>(2.0 * std::atan(read_tan_half_x(reader, static_cast<double>(film.width) / film.height)));
     sensor.principal_offset_x = static_cast<float>(reader.number("principal_point_offset_x", 0.0));
@@ -99,9 +106,9 @@ void read_orthographic(ObjectReader& reader, const SceneIndex& index, Sensor& se
     sensor.projection = Projection::orthographic;
     set_pose(to_world, where, sensor);
     const Vec3 x = to_world.vector({1, 0, 0}), y = to_world.vector({0, 1, 0}), z = to_world.vector({0, 0, 1});
-    sensor.extent_x = length(x);
-    sensor.extent_y = length(y);
-    const float scale_z = length(z);
+    sensor.extent_x = direction_and_length(x).length;
+    sensor.extent_y = direction_and_length(y).length;
+    const float scale_z = direction_and_length(z).length;
     if (!std::isnormal(sensor.extent_x) || !std::isnormal(sensor.extent_y) || !std::isnormal(scale_z))
         throw SceneError(where, "the scale in to_world of the sensor is out of range of 32-bit numbers");
     constexpr float tolerance = 1e-3f; // of the cosines between axes
@@ -133,7 +140,7 @@ void read_sampler(ObjectReader& sensor, const SceneIndex& index, IntegratorReque
     if (!sampler) return;
     ObjectReader reader(*sampler->object, index);
     const std::string type = reader.type();
-    if (type != "independent") index.warn(reader.where(), "sampler '" + type + "' is ignored: the method chooses its random numbers");
+    if (type != "independent") index.warn(reader.where(), "sampler '" + type + "' is ignored: the method chooses its random numbers", WarningKind::ignored);
     request.sample_count = reader.integer("sample_count", 4);
     if (request.sample_count < 1) throw SceneError(reader.where_of("sample_count"), "sample_count must be >= 1");
     const int seed = reader.integer("seed", 0);

@@ -14,4 +14,7 @@ void import_sensor(const XmlElement& element, const SceneIndex& index, Scene& sc
 // Throws as import_sensor. `reader` is a <film>'s.
 Film import_film(ObjectReader& reader);
 
+// Tangent of half the horizontal field of view, from fov and fov_axis or focal_length; aspect is width over height.
+double read_tan_half_x(ObjectReader& reader, double aspect);
+
 } // namespace sundog

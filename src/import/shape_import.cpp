@@ -3,6 +3,7 @@
 #include "import/emitter_import.h"
 #include "import/mesh_import.h"
 #include "import/mesh_parts.h"
+#include "math/direction.h"
 
 #include <map>
 
@@ -24,9 +25,9 @@ Sphere import_sphere(ObjectReader& reader)
     sphere.center = to_world.point(center);
     sphere.radius = static_cast<float>(radius * *scale);
     sphere.flip_normals = reader.boolean("flip_normals", false);
-    sphere.axis_x = normalize(to_world.vector({1, 0, 0}));
-    sphere.axis_y = normalize(to_world.vector({0, 1, 0}));
-    sphere.axis_z = normalize(to_world.vector({0, 0, 1}));
+    sphere.axis_x = direction_of(to_world.vector({1, 0, 0}));
+    sphere.axis_y = direction_of(to_world.vector({0, 1, 0}));
+    sphere.axis_z = direction_of(to_world.vector({0, 0, 1}));
     if (!is_finite(sphere.center) || !std::isfinite(sphere.radius))
         throw SceneError(reader.where_of("to_world"), "the sphere is too large for 32-bit numbers");
     if (!(sphere.radius > 0.0f)) throw SceneError(reader.where(), "the sphere is too small for 32-bit numbers");
@@ -63,25 +64,26 @@ Cylinder import_cylinder(ObjectReader& reader)
     const Transform to_world = reader.transform("to_world");
     if (!(length(p1 - p0) > 0.0f) || !is_finite(p1 - p0))
         throw SceneError(reader.where_of("p1"), "the cylinder needs two different end points 'p0' and 'p1'");
-    const auto [x, y] = frame_around(normalize(p1 - p0), reader.index().legacy());
-    const Vec3 axis = to_world.vector(p1 - p0);
-    const Vec3 across_x = to_world.vector(x), across_y = to_world.vector(y);
-    const float width = length(across_x);
+    const auto [z, height] = direction_and_length(p1 - p0);
+    const auto [x, y] = frame_around(z, reader.index().legacy());
+    const auto [axis_z, stretch] = direction_and_length(to_world.vector(z));
+    const auto [axis_x, width] = direction_and_length(to_world.vector(x));
+    const auto [axis_y, width_y] = direction_and_length(to_world.vector(y));
 
     Cylinder cylinder;
     cylinder.start = to_world.point(p0);
-    cylinder.length = length(axis);
+    cylinder.length = height * stretch;
     cylinder.radius = static_cast<float>(radius * width);
     if (!is_finite(cylinder.start) || !std::isfinite(cylinder.length) || !std::isfinite(cylinder.radius))
         throw SceneError(reader.where_of("to_world"), "the cylinder is too large for 32-bit numbers");
     if (!(cylinder.radius > 0.0f) || !(cylinder.length > 0.0f))
         throw SceneError(reader.where(), "the cylinder is too small for 32-bit numbers");
-    cylinder.axis_x = normalize(across_x);
-    cylinder.axis_y = normalize(across_y);
-    cylinder.axis_z = normalize(axis);
+    cylinder.axis_x = axis_x;
+    cylinder.axis_y = axis_y;
+    cylinder.axis_z = axis_z;
     // Still round, and still upright.
     constexpr float tolerance = 1e-3f;
-    const bool even = std::abs(length(across_y) - width) <= tolerance * width;
+    const bool even = std::abs(width_y - width) <= tolerance * width;
     if (!even || std::abs(dot(cylinder.axis_x, cylinder.axis_y)) > tolerance ||
         std::abs(dot(cylinder.axis_x, cylinder.axis_z)) > tolerance || std::abs(dot(cylinder.axis_y, cylinder.axis_z)) > tolerance)
         throw SceneError(reader.where_of("to_world"),
@@ -94,7 +96,6 @@ Cylinder import_cylinder(ObjectReader& reader)
 [[noreturn]] void refuse_by_name(const ObjectReader& reader)
 {
     constexpr const char* as_mesh = "convert it to a mesh (ply or obj)";
-    constexpr const char* as_copies = "give each copy a shape of its own, with the to_world of its instance";
     static const std::map<std::string, const char*> cures = {
         {"heightfield", as_mesh},
         {"hair", "make tubes of the strands, as a mesh (ply or obj)"},
@@ -104,20 +105,18 @@ Cylinder import_cylinder(ObjectReader& reader)
         {"ellipsoids", as_mesh},
         {"ellipsoidsmesh", as_mesh},
         {"deformable", "save the mesh of the wanted instant (ply or obj)"},
-        {"shapegroup", as_copies},
-        {"instance", as_copies},
         {"merge", "put its shapes into the scene themselves"},
     };
     const auto cure = cures.find(reader.type());
     if (cure != cures.end()) throw SceneError(reader.where(), "shape plugin '" + cure->first + "' is not supported: " + cure->second);
-    reader.unsupported("obj, ply, serialized, rectangle, cube, sphere, disk, cylinder");
+    reader.unsupported("obj, ply, serialized, rectangle, cube, sphere, disk, cylinder, shapegroup, instance");
 }
 
 class ShapeImport
 {
 public:
-    ShapeImport(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, Scene& scene)
-        : reader_(element, index), bsdfs_(bsdfs), scene_(scene)
+    ShapeImport(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, TextureImporter& textures, Scene& scene)
+        : reader_(element, index), bsdfs_(bsdfs), textures_(textures), scene_(scene)
     {
         const std::string* id = element.attribute("id");
         common_.id = id ? *id : "";
@@ -127,7 +126,7 @@ public:
     void run()
     {
         const std::string type = reader_.type();
-        if (const auto emitter = reader_.single("emitter")) common_.emitter = import_area_emitter(*emitter->object, reader_.index());
+        if (const auto emitter = reader_.single("emitter")) common_.emitter = import_area_emitter(*emitter->object, reader_.index(), textures_);
         const auto bsdf = reader_.single("bsdf");
         if (type == "obj" && !bsdf) {
             add_obj_with_materials();
@@ -171,7 +170,7 @@ private:
     {
         const Vec3 clamped = min(max(material.diffuse, Vec3{0, 0, 0}), Vec3{1, 1, 1});
         if (!(clamped == material.diffuse))
-            reader_.index().warn(common_.where, "Kd of material '" + material.name + "' is outside of [0, 1] and was clamped");
+            reader_.index().warn(common_.where, "Kd of material '" + material.name + "' is outside of [0, 1] and was clamped", WarningKind::approximated);
         return bsdfs_.add_diffuse(material.name, common_.where, clamped);
     }
 
@@ -188,15 +187,16 @@ private:
 
     ObjectReader reader_;
     BsdfImporter& bsdfs_;
+    TextureImporter& textures_;
     Scene& scene_;
     ShapeDescription common_;
 };
 
 } // namespace
 
-void import_shape(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, Scene& scene)
+void import_shape(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, TextureImporter& textures, Scene& scene)
 {
-    ShapeImport(element, index, bsdfs, scene).run();
+    ShapeImport(element, index, bsdfs, textures, scene).run();
 }
 
 } // namespace sundog

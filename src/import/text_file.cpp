@@ -1,9 +1,9 @@
 #include "import/text_file.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 namespace sundog
 {
@@ -23,29 +23,55 @@ std::string_view trimmed(std::string_view text)
     return text;
 }
 
+constexpr std::uintmax_t gibibyte = std::uintmax_t{1} << 30;
+constexpr std::uintmax_t largest_file = 16 * gibibyte; // a mesh of 2^30 triangles
+constexpr std::uintmax_t largest_stream = gibibyte;
+
+[[noreturn]] void refuse_size(const std::filesystem::path& file, const SourceLocation& wanted_at, std::uintmax_t most)
+{
+    throw SceneError(wanted_at,
+                     "'" + file.string() + "' is larger than " + std::to_string(most / gibibyte) + " GiB, the most that is read");
+}
+
+// In one piece: a stream's buffer would grow in steps and take twice the room.
+std::string read_whole(std::istream& stream, std::uintmax_t size)
+{
+    std::string content(static_cast<std::size_t>(size), '\0');
+    stream.read(content.data(), static_cast<std::streamsize>(content.size()));
+    content.resize(static_cast<std::size_t>(stream.gcount()));
+    return content;
+}
+
+// Stops soon after the most that is read.
+std::string read_to_end(std::istream& stream)
+{
+    std::string content;
+    std::array<char, 65536> piece;
+    do {
+        stream.read(piece.data(), piece.size());
+        content.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+    } while (stream.good() && content.size() <= largest_stream);
+    return content;
+}
+
 } // namespace
 
-std::string read_text_file(const std::filesystem::path& file, const SourceLocation& wanted_at)
+std::string read_text_file(const std::filesystem::path& file, const SourceLocation& wanted_at, FileKind kind)
 {
     std::error_code failed;
     const auto status = std::filesystem::status(file, failed);
     if (!std::filesystem::exists(status)) throw SceneError(wanted_at, "file '" + file.string() + "' not found");
     if (std::filesystem::is_directory(status)) throw SceneError(wanted_at, "'" + file.string() + "' is a folder, not a file");
+    const bool regular = std::filesystem::is_regular_file(status);
+    if (!regular && kind == FileKind::regular)
+        throw SceneError(wanted_at, "'" + file.string() + "' is a device or a pipe: a scene can only refer to regular files");
+    const std::uintmax_t size = regular ? std::filesystem::file_size(file, failed) : largest_stream;
+    if (!failed && size > largest_file) refuse_size(file, wanted_at, largest_file);
     std::ifstream stream(file, std::ios::binary);
-    std::string content;
-    if (std::filesystem::is_regular_file(status)) {
-        // In one piece: a stream's buffer would grow in steps and take twice the room.
-        const std::uintmax_t size = std::filesystem::file_size(file, failed);
-        content.resize(failed ? 0 : static_cast<std::size_t>(size));
-        stream.read(content.data(), static_cast<std::streamsize>(content.size()));
-        content.resize(static_cast<std::size_t>(stream.gcount()));
-    } else if (stream.peek() != std::ifstream::traits_type::eof()) {
-        std::ostringstream pieces;
-        pieces << stream.rdbuf();
-        content = std::move(pieces).str();
-    }
-    if (!stream.is_open() || stream.bad() || failed)
-        throw SceneError(wanted_at, "file '" + file.string() + "' cannot be read: check its permissions");
+    const bool open = stream.is_open();
+    std::string content = open && !failed ? (regular ? read_whole(stream, size) : read_to_end(stream)) : std::string();
+    if (!open || stream.bad() || failed) throw SceneError(wanted_at, "file '" + file.string() + "' cannot be read: check its permissions");
+    if (!regular && content.size() > largest_stream) refuse_size(file, wanted_at, largest_stream);
     return content;
 }
 

@@ -12,8 +12,13 @@
 namespace sundog
 {
 
-// Throws SceneError at `wanted_at`, with the path, when the file is missing, a folder or unreadable.
-std::string read_text_file(const std::filesystem::path& file, const SourceLocation& wanted_at);
+// Which files may be opened: what a scene refers to is a regular file, so that a stranger's scene cannot read a terminal,
+// wait for a pipe or drain a device without end. The file that the user names may be a pipe as well.
+enum class FileKind { regular, regular_or_stream };
+
+// Throws SceneError at `wanted_at`, with the path, when the file is missing, a folder, of another kind, unreadable or
+// larger than 16 GiB.
+std::string read_text_file(const std::filesystem::path& file, const SourceLocation& wanted_at, FileKind kind = FileKind::regular);
 
 // The whole text as one number, blanks around it allowed. Nothing for anything else, infinities and NaN included.
 std::optional<double> parse_number(std::string_view text);

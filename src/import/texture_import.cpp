@@ -34,7 +34,8 @@ TextureFilter read_filter(ObjectReader& reader)
     const std::string filter = reader.text("filter_type", "bilinear");
     if (filter == "nearest") return TextureFilter::nearest;
     if (filter == "ewa" || filter == "trilinear")
-        reader.index().warn(reader.where_of("filter_type"), "filter '" + filter + "' is done as bilinear: many samples a pixel average the texture");
+        reader.index().warn(reader.where_of("filter_type"), "filter '" + filter + "' is done as bilinear: many samples a pixel average the texture",
+                              WarningKind::approximated);
     else if (filter != "bilinear")
         throw SceneError(reader.where_of("filter_type"), "'filter_type' must be nearest or bilinear, got '" + filter + "'");
     return TextureFilter::bilinear;
@@ -82,6 +83,11 @@ std::optional<ColorSource> TextureImporter::nested(ObjectReader& reader)
     const auto texture = reader.single("texture");
     if (!texture) return {};
     return import(*texture->object);
+}
+
+double TextureImporter::aspect(uint texture) const
+{
+    return textures_.at(texture).aspect();
 }
 
 ColorSource TextureImporter::import(const XmlElement& element)
@@ -132,7 +138,8 @@ BitmapTexture TextureImporter::read_bitmap(ObjectReader& reader)
     if (!image) {
         bool clipped = false;
         image = std::make_shared<const TexelImage>(load_bitmap(file, reader.where_of("filename"), raw, clipped));
-        if (clipped) index_.warn(reader.where_of("filename"), "values of '" + file.string() + "' that are not finite or beyond 65504 were clamped");
+        if (clipped) index_.warn(reader.where_of("filename"), "values of '" + file.string() + "' that are not finite or beyond 65504 were clamped",
+                                      WarningKind::approximated);
     }
     bitmap.image = image;
     bitmap.wrap = read_wrap(reader);

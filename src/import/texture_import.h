@@ -22,6 +22,8 @@ public:
 
     // The one texture inside, whatever its name. Throws SceneError for more.
     std::optional<ColorSource> nested(ObjectReader& reader);
+    // Width over height of an image, 1 of other textures.
+    double aspect(uint texture) const;
 
 private:
     // The texture, and what its value has to be multiplied by (0.6's <texture type="scale">).

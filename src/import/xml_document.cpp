@@ -17,6 +17,9 @@ constexpr int max_include_depth = 16;
 constexpr int max_includes = 10'000;
 constexpr int max_element_depth = 64;
 constexpr std::size_t max_elements = 4'000'000;
+// Bytes of all attributes together, parameters substituted: each <default> can hold the one before many times over.
+constexpr std::size_t max_text = std::size_t{1} << 28;
+constexpr std::size_t max_xml = std::size_t{1} << 30; // bytes of all files together
 
 std::string quoted_list(const std::set<std::string>& names)
 {
@@ -28,7 +31,7 @@ std::string quoted_list(const std::set<std::string>& names)
 class SceneReader
 {
 public:
-    SceneReader(const std::map<std::string, std::string>& defines, std::vector<std::string>& warnings)
+    SceneReader(const std::map<std::string, std::string>& defines, std::vector<Warning>& warnings)
         : parameters_(defines), defines_(defines), warnings_(warnings)
     {
         for (const auto& [name, value] : defines)
@@ -38,7 +41,8 @@ public:
     XmlScene read(const std::filesystem::path& file)
     {
         scene_.file = file.string();
-        const XmlFile xml(file, {file.string(), 0});
+        const XmlFile xml(file, {file.string(), 0}, FileKind::regular_or_stream);
+        count_file(xml, {file.string(), 0});
         const pugi::xml_node root = xml.root();
         if (std::string_view(root.name()) != "scene")
             throw SceneError(xml.where(root), "the root element must be <scene>, not <" + std::string(root.name()) + ">");
@@ -113,6 +117,9 @@ private:
     {
         std::string result;
         for (std::size_t i = 0; i < text.size();) {
+            if (text_bytes_ + result.size() > max_text)
+                throw SceneError(where,
+                                 "the attributes hold more than " + std::to_string(max_text) + " bytes when parameters are substituted");
             if (text[i] != '$') {
                 result += text[i++];
                 continue;
@@ -126,6 +133,7 @@ private:
             result += best->second;
             i += 1 + best->first.size();
         }
+        text_bytes_ += result.size();
         return result;
     }
 
@@ -170,6 +178,7 @@ private:
         if (++include_count_ > max_includes)
             throw SceneError(element.where, "more than " + std::to_string(max_includes) + " files are included");
         const XmlFile xml(file, element.where);
+        count_file(xml, element.where);
         const pugi::xml_node root = xml.root();
         open_files_.push_back(file);
         if (std::string_view(root.name()) == "scene")
@@ -189,6 +198,13 @@ private:
         const std::filesystem::path beside_scene = std::filesystem::path(scene_.file).parent_path() / path;
         if (std::filesystem::exists(beside_scene, failed)) return beside_scene;
         return std::filesystem::path(where.file).parent_path() / path;
+    }
+
+    void count_file(const XmlFile& xml, const SourceLocation& where)
+    {
+        xml_bytes_ += xml.size();
+        if (xml_bytes_ > max_xml)
+            throw SceneError(where, "the scene and its includes have more than " + std::to_string(max_xml) + " bytes together");
     }
 
     void refuse_cycle(const std::filesystem::path& file, const SourceLocation& where) const
@@ -212,10 +228,12 @@ private:
 
     std::map<std::string, std::string> parameters_;
     const std::map<std::string, std::string>& defines_;
-    std::vector<std::string>& warnings_;
+    std::vector<Warning>& warnings_;
     std::set<std::string> known_; // parameters that some <default> or $name mentions
     std::vector<std::filesystem::path> open_files_;
     std::size_t element_count_ = 0;
+    std::size_t text_bytes_ = 0; // of the attributes so far
+    std::size_t xml_bytes_ = 0;
     int include_count_ = 0;
     XmlScene scene_;
 };
@@ -236,7 +254,7 @@ std::string XmlElement::parameter_name() const
 }
 
 XmlScene read_scene_xml(const std::filesystem::path& file, const std::map<std::string, std::string>& defines,
-                        std::vector<std::string>& warnings)
+                        std::vector<Warning>& warnings)
 {
     return SceneReader(defines, warnings).read(file);
 }

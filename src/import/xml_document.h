@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/errors.h"
+#include "base/warning.h"
 
 #include <filesystem>
 #include <map>
@@ -36,7 +37,7 @@ struct XmlScene {
 // Throws SceneError with file and line for unreadable files, malformed XML, undefined parameters, cyclic and
 // excessive includes; UsageError for a define that no file uses, naming those that exist.
 XmlScene read_scene_xml(const std::filesystem::path& file, const std::map<std::string, std::string>& defines,
-                        std::vector<std::string>& warnings);
+                        std::vector<Warning>& warnings);
 
 // camelCase to snake_case: "intIOR" gives "int_ior".
 std::string snake_case(std::string_view name);

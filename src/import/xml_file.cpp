@@ -1,7 +1,5 @@
 #include "import/xml_file.h"
 
-#include "import/text_file.h"
-
 #include <algorithm>
 #include <cctype>
 #include <string_view>
@@ -34,9 +32,10 @@ std::string explain(const pugi::xml_parse_result& result, bool at_end)
 
 } // namespace
 
-XmlFile::XmlFile(const std::filesystem::path& file, const SourceLocation& wanted_at) : name_(file.string())
+XmlFile::XmlFile(const std::filesystem::path& file, const SourceLocation& wanted_at, FileKind kind) : name_(file.string())
 {
-    const std::string text = read_text_file(file, wanted_at);
+    const std::string text = read_text_file(file, wanted_at, kind);
+    size_ = text.size();
     line_starts_.push_back(0);
     for (std::size_t i = 0; i < text.size(); i++)
         if (text[i] == '\n') line_starts_.push_back(static_cast<std::ptrdiff_t>(i + 1));

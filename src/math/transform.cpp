@@ -110,6 +110,28 @@ Vec3 Transform::normal(Vec3 n) const
     return to_float(normalized(r));
 }
 
+Transform Transform::inverse() const
+{
+    // Rows of the inverse are cross products of columns, over the determinant.
+    const Double3 x = column(*this, 0), y = column(*this, 1), z = column(*this, 2);
+    const std::array<Double3, 3> rows = {cross(y, z), cross(z, x), cross(x, y)};
+    const double scale = 1.0 / determinant();
+    Transform t;
+    for (std::size_t i = 0; i < 3; i++) {
+        for (std::size_t j = 0; j < 3; j++) t.m[i][j] = rows[i][j] * scale;
+        t.m[i][3] = -(t.m[i][0] * m[0][3] + t.m[i][1] * m[1][3] + t.m[i][2] * m[2][3]);
+    }
+    return t;
+}
+
+Bounds Transform::box(const Bounds& b) const
+{
+    Bounds result;
+    for (unsigned corner = 0; corner < 8 && !b.empty(); corner++)
+        result.extend(point({corner & 1 ? b.upper.x : b.lower.x, corner & 2 ? b.upper.y : b.lower.y, corner & 4 ? b.upper.z : b.lower.z}));
+    return result;
+}
+
 double Transform::determinant() const
 {
     return dot(column(*this, 0), cross(column(*this, 1), column(*this, 2)));
@@ -118,6 +140,11 @@ double Transform::determinant() const
 bool Transform::is_affine() const
 {
     return m[3][0] == 0.0 && m[3][1] == 0.0 && m[3][2] == 0.0 && m[3][3] == 1.0;
+}
+
+bool Transform::is_identity() const
+{
+    return m == Transform().m;
 }
 
 bool Transform::is_finite() const

@@ -2,6 +2,7 @@
 // and their inverse transposes loses nothing that a float would show.
 #pragma once
 
+#include "math/bounds.h"
 #include "math/double3.h"
 
 #include <optional>
@@ -28,9 +29,15 @@ struct Transform {
     // outside stays outside under reflections too.
     Vec3 normal(Vec3 n) const;
 
+    // Of an affine map that is not singular.
+    Transform inverse() const;
+    // Box of the mapped box, empty for an empty one.
+    Bounds box(const Bounds& b) const;
+
     double determinant() const; // of the linear part; negative for reflections
     bool is_affine() const;     // last row is 0 0 0 1
     bool is_finite() const;
+    bool is_identity() const;
     // Whether the linear part flattens space: its determinant vanishes against the lengths of its columns.
     bool is_singular() const;
     // The factor by which all lengths change, where that is one factor within the relative tolerance:

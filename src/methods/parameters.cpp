@@ -147,6 +147,11 @@ bool Parameters::boolean(const std::string& name) const
     return value == "true";
 }
 
+bool Parameters::has(const std::string& name) const
+{
+    return set_.contains(name);
+}
+
 bool Parameters::is_set(const std::string& name) const
 {
     const auto found = set_.find(name);

@@ -42,6 +42,7 @@ public:
     double real(const std::string& name) const;
     bool boolean(const std::string& name) const;
     const std::string& text(const std::string& name) const;
+    bool has(const std::string& name) const; // whether the method has a parameter of this name
     bool is_set(const std::string& name) const; // by the user, rather than by default
 
     // Every parameter with the value in force, in the order of the specs.

@@ -23,6 +23,7 @@ public:
         pass_.gather_photons();
         const float inverse_paths = 1.0f / static_cast<float>(pass_.light_paths());
         add_gathered_(pass_.pixels(), pass_.queries.queries, pass_.gather.sums, static_cast<uint>(pass_.pixels()), inverse_paths, pass_.camera.radiance);
+        context_.spectral.to_rgb(pass_.camera.radiance);
         context_.film.accumulate(pass_.camera.radiance);
     }
 
@@ -45,7 +46,7 @@ const MethodRegistration registration({
     .description = "Averages independent photon-mapping renders whose radius shrinks from one to the next. Renders caustics and light seen through glass; "
                    "the reference among the progressive methods.",
     .parameters = {photons_spec(), radius_spec(), alpha_spec(), kernel_spec(), direct_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"),
-                   sampler_spec(), iterations_spec()},
+                   sampler_spec(), spectral_spec(), iterations_spec()},
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<ProbabilisticProgressivePhotonMapping>(context, parameters);
     },

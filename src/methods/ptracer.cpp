@@ -29,6 +29,7 @@ public:
         if (max_depth_ >= 1)
             add_visible_light_(camera_.count(), context_.scene.surfaces(), static_cast<uint>(camera_.count()), pool_.rays, pool_.hits, pool_.paths, camera_.radiance);
         splats_.trace(context_.scene, camera_, pool_, key);
+        context_.spectral.to_rgb(camera_.radiance);
         context_.film.accumulate(camera_.radiance);
     }
 
@@ -61,7 +62,7 @@ const MethodRegistration registration({
     .estimator_class = "unbiased",
     .description = "Paths from the lights, each vertex connected to the camera. Renders caustics on diffuse surfaces well; what is seen in mirrors or through "
                    "glass stays black.",
-    .parameters = {photons_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), iterations_spec()},
+    .parameters = {photons_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), spectral_spec(), iterations_spec()},
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> { return std::make_unique<LightTracing>(context, parameters); },
 });
 

@@ -3,7 +3,7 @@
 
 #include "film/device_film.h"
 #include "stages/camera_paths.h"
-#include "stages/device_scene.h"
+#include "stages/spectral_transport.h"
 
 namespace sundog {
 
@@ -13,6 +13,7 @@ struct RenderContext {
     const Camera& camera;
     const PixelFilter& filter;
     DeviceFilm& film;
+    const SpectralTransport& spectral; // its pass begins before the method's
     std::uint64_t seed;
 };
 

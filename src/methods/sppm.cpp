@@ -26,6 +26,8 @@ public:
         pass_.trace(iteration, pass_.first_radius());
         set_query_radii_(count, pixels_, count, pass_.queries.queries);
         pass_.gather_photons();
+        context_.spectral.to_rgb(pass_.camera.radiance);
+        context_.spectral.to_rgb(pass_.queries.queries, pass_.gather.sums);
         const float inverse_paths = 1.0f / static_cast<float>(pass_.light_paths());
         update_progressive_pixels_(count, pass_.queries.queries, pass_.gather.sums, count, alpha_, inverse_paths, pixels_, pass_.camera.radiance);
         context_.film.accumulate(pass_.camera.radiance);
@@ -82,7 +84,7 @@ const MethodRegistration registration({
     .description = "Every pixel keeps its own radius, which shrinks with the photons it has found. Renders caustics and light seen through glass with "
                    "depth of field and antialiasing; a good default.",
     .parameters = {photons_spec(), radius_spec(), alpha_spec(), direct_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(),
-                   iterations_spec()},
+                   spectral_spec(), iterations_spec()},
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<StochasticProgressivePhotonMapping>(context, parameters);
     },

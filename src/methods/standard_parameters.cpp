@@ -68,6 +68,12 @@ ParameterSpec kernel_spec()
             {"uniform", "epanechnikov", "biweight", "triweight"}};
 }
 
+ParameterSpec spectral_spec()
+{
+    return {"spectral", ParameterType::boolean, "false", "",
+            "Compute with three wavelengths a pass (Wilkie et al. 2014) instead of red, green and blue; shows dispersion.", 0, 0, {}};
+}
+
 PathRules path_rules(const Parameters& parameters)
 {
     const std::int64_t max_depth = parameters.integer("max_depth");
@@ -77,6 +83,11 @@ PathRules path_rules(const Parameters& parameters)
 SamplerKind sampler_kind(const Parameters& parameters)
 {
     return parameters.text("sampler") == "sobol" ? SamplerKind::sobol : SamplerKind::independent;
+}
+
+bool is_spectral(const Parameters& parameters)
+{
+    return parameters.has("spectral") && parameters.boolean("spectral");
 }
 
 int density_kernel(const Parameters& parameters)

@@ -18,9 +18,11 @@ ParameterSpec radius_spec();
 ParameterSpec alpha_spec();
 ParameterSpec direct_spec();
 ParameterSpec kernel_spec();
+ParameterSpec spectral_spec();
 
 PathRules path_rules(const Parameters& parameters); // of max_depth and rr_depth
 SamplerKind sampler_kind(const Parameters& parameters);
+bool is_spectral(const Parameters& parameters); // false for methods that have no such parameter
 int density_kernel(const Parameters& parameters); // as DENSITY_KERNEL
 
 // Light subpaths an iteration: `photons`, or one a pixel.

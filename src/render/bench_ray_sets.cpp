@@ -162,7 +162,7 @@ void EmbreeTracer::closest(const std::vector<Ray>& rays, std::vector<Hit>& hits)
             query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
             rtcIntersect1(scene_.get(), &context, &query);
             const bool missed = query.hit.geomID == RTC_INVALID_GEOMETRY_ID;
-            hits[i] = {query.ray.tfar, query.hit.u, query.hit.v, missed ? NO_PRIMITIVE : query.hit.primID};
+            hits[i] = {query.ray.tfar, query.hit.u, query.hit.v, missed ? NO_PRIMITIVE : query.hit.primID, NO_INSTANCE};
         }
     });
 }

@@ -5,6 +5,7 @@
 #include "base/timer.h"
 #include "device/profile.h"
 #include "methods/render_context.h"
+#include "methods/standard_parameters.h"
 #include "render/checkpoint.h"
 #include "scene/fingerprint.h"
 #include "scene/flat_scene.h"
@@ -86,11 +87,14 @@ Scene sized_scene(Scene scene, const RenderSettings& settings, const DeviceInfo&
 struct RenderSession::State {
     State(Scene scene_in, Device& device_in, const RenderSettings& settings)
         : scene(sized_scene(std::move(scene_in), settings, device_in.info())), device(device_in), info(choose_method(scene, settings)),
-          parameters(choose_parameters(scene, settings, info)), seed(settings.seed.value_or(scene.integrator.seed)), device_scene(device, scene),
+          parameters(choose_parameters(scene, settings, info)), seed(settings.seed.value_or(scene.integrator.seed)), device_scene(device, scene, is_spectral(parameters)),
           camera(make_camera(scene.sensor, scene.film)), filter(make_pixel_filter(scene.film.filter)),
-          film(device, scene.film.crop_width, scene.film.crop_height), context{device, device_scene, camera, filter, film, seed},
+          film(device, scene.film.crop_width, scene.film.crop_height), spectral(device, device_scene, seed),
+          context{device, device_scene, camera, filter, film, spectral, seed},
           method(info.create(context, parameters))
     {
+        if (scene.has_dispersion() && !device_scene.is_spectral())
+            log_warning("the scene's glass has dispersion, which shows only with spectral=true (-p spectral=true); each index is taken at 589.3 nm");
     }
 
     Scene scene;
@@ -102,6 +106,7 @@ struct RenderSession::State {
     Camera camera;
     PixelFilter filter;
     DeviceFilm film;
+    SpectralTransport spectral;
     RenderContext context;
     std::unique_ptr<Method> method;
     std::uint64_t iterations = 0;
@@ -153,6 +158,7 @@ std::uint64_t RenderSession::requested_iterations() const
 void RenderSession::iterate()
 {
     const Timer timer;
+    state_->spectral.begin_pass(state_->iterations);
     state_->method->render_pass(state_->iterations);
     state_->device.finish();
     state_->iterations++;

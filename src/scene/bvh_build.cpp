@@ -128,16 +128,12 @@ RTCBuildArguments build_arguments(const BvhSettings& settings, std::vector<RTCBu
     return arguments;
 }
 
-} // namespace
-
-Bvh build_bvh(const BvhGeometry& geometry, const BvhSettings& settings)
+// Embree's tree of `primitives`, not empty, handed to `flatten`. geometry: what spatial splits cut.
+template <class Flatten>
+BvhTree build_tree(const std::vector<BvhPrimitive>& primitives, BvhGeometry geometry, const BvhSettings& settings, const Flatten& flatten)
 {
-    assert(settings.max_leaf_size >= 1 && settings.max_leaf_size <= BuildLeaf::capacity);
-    const std::vector<BvhPrimitive> primitives = collect_primitives(geometry);
-    Bvh bvh;
-    for (const BvhPrimitive& primitive : primitives) bvh.bounds.extend(primitive.bounds);
-    if (primitives.empty()) return bvh;
-
+    BvhTree tree;
+    for (const BvhPrimitive& primitive : primitives) tree.bounds.extend(primitive.bounds);
     std::vector<RTCBuildPrimitive> references(primitives.size() +
                                               static_cast<std::size_t>(settings.extra_references * static_cast<float>(primitives.size())));
     std::transform(primitives.begin(), primitives.end(), references.begin(), to_embree);
@@ -147,13 +143,45 @@ Bvh build_bvh(const BvhGeometry& geometry, const BvhSettings& settings)
     const std::unique_ptr<RTCBVHTy, ReleaseBvh> memory(rtcNewBVH(device.get()));
     if (!memory) throw_build_error(device.get(), primitives.size());
     RTCBuildArguments arguments = build_arguments(settings, references, primitives.size());
-    BvhGeometry context = geometry;
     arguments.bvh = memory.get();
-    arguments.userPtr = &context;
+    arguments.userPtr = &geometry;
     const void* root = rtcBuildBVH(&arguments);
     if (!root) throw_build_error(device.get(), primitives.size());
-    flatten_bvh(geometry, *static_cast<const BuildNode*>(root), bvh);
+    tree.root = flatten(*static_cast<const BuildNode*>(root));
+    return tree;
+}
+
+} // namespace
+
+Bvh build_bvh(const BvhGeometry& geometry, const BvhSettings& settings)
+{
+    Bvh bvh;
+    const BvhTree tree = append_tree(bvh, geometry, settings);
+    bvh.root = tree.root;
+    bvh.bounds = tree.bounds;
     return bvh;
+}
+
+BvhTree append_tree(Bvh& bvh, const BvhGeometry& geometry, const BvhSettings& settings)
+{
+    assert(settings.max_leaf_size >= 1 && settings.max_leaf_size <= BuildLeaf::capacity);
+    const std::vector<BvhPrimitive> primitives = collect_primitives(geometry);
+    if (primitives.empty()) return {};
+    return build_tree(primitives, geometry, settings, [&](const BuildNode& root) { return flatten_tree(geometry, root, bvh); });
+}
+
+BvhTree append_instance_tree(Bvh& bvh, const std::vector<BvhPrimitive>& instances)
+{
+    if (instances.size() > BVH_MAX_INSTANCES)
+        throw SceneError({}, "the scene has " + std::to_string(instances.size()) + " instances; at most " +
+                                 std::to_string(BVH_MAX_INSTANCES) + " can be rendered");
+    if (instances.empty()) return {};
+    // An instance costs more than a node: each gets a leaf, that is, a box of its own.
+    BvhSettings settings;
+    settings.min_leaf_size = settings.max_leaf_size = 1;
+    settings.intersection_cost = 4.0f;
+    settings.extra_references = 0.0f;
+    return build_tree(instances, {}, settings, [&](const BuildNode& root) { return flatten_instance_tree(root, bvh); });
 }
 
 } // namespace sundog

@@ -18,12 +18,19 @@ struct BvhGeometry {
     std::span<const AnalyticPrimitive> analytics;
 };
 
-// Empty geometry: no nodes, no blocks, and a root that is an empty leaf.
+// One tree or, for scenes with instances, several (scene/scene_bvh.h). Empty geometry: no nodes, no blocks, and a root that is an empty leaf.
 struct Bvh {
     std::vector<BvhNode> nodes;
     std::vector<BvhBlock> blocks;
     int root = ~0; // as BvhNode::child
     Bounds bounds; // of all primitives
+    std::vector<Instance> instances;
+};
+
+// A tree in a Bvh.
+struct BvhTree {
+    int root = ~0; // as BvhNode::child
+    Bounds bounds;
 };
 
 // The defaults are the fastest of those tried on 10^4 and 10^6 triangles: a block costs the same full or empty, so sets
@@ -43,5 +50,13 @@ struct BvhSettings {
 // products would overflow on the device) or there are too many primitives, and
 // std::logic_error when a triangle's index is out of range.
 Bvh build_bvh(const BvhGeometry& geometry, const BvhSettings& settings = {});
+
+// The same beside the trees that `bvh` has already; its root stays.
+BvhTree append_tree(Bvh& bvh, const BvhGeometry& geometry, const BvhSettings& settings = {});
+
+// The tree of instances: their boxes (no coordinate beyond 1e12) and indices. Throws SceneError for more than
+// BVH_MAX_INSTANCES.
+struct BvhPrimitive;
+BvhTree append_instance_tree(Bvh& bvh, const std::vector<BvhPrimitive>& instances);
 
 } // namespace sundog

@@ -4,6 +4,7 @@
 #include "shared/ray.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sundog
 {
@@ -17,36 +18,43 @@ constexpr std::size_t largest_block_count = std::size_t(1) << (31 - 2 * BVH_LEAF
 
 static_assert((BuildLeaf::capacity + BVH_WIDTH - 1) / BVH_WIDTH <= BVH_LEAF_MAX_BLOCKS);
 
-class Flattener
+BvhNode empty_node()
+{
+    BvhNode node{};
+    for (int i = 0; i < BVH_WIDTH; i++) {
+        node.lower_x[i] = node.upper_x[i] = node.lower_y[i] = node.upper_y[i] = node.lower_z[i] = node.upper_z[i] = nowhere;
+        node.child[i] = empty_leaf;
+    }
+    return node;
+}
+
+void set_child(BvhNode& node, int i, const Bounds& bounds, int child)
+{
+    node.lower_x[i] = bounds.lower.x, node.upper_x[i] = bounds.upper.x;
+    node.lower_y[i] = bounds.lower.y, node.upper_y[i] = bounds.upper.y;
+    node.lower_z[i] = bounds.lower.z, node.upper_z[i] = bounds.upper.z;
+    node.child[i] = child;
+}
+
+// add_leaf: from a leaf to its code as BvhNode::child.
+template <class AddLeaf> int add_tree(const BuildNode& node, Bvh& bvh, AddLeaf& add_leaf)
+{
+    if (node.is_leaf) return add_leaf(static_cast<const BuildLeaf&>(node));
+    const auto& inner = static_cast<const BuildInner&>(node);
+    const std::size_t index = bvh.nodes.size();
+    bvh.nodes.emplace_back();
+    BvhNode flat = empty_node();
+    for (int i = 0; i < inner.count; i++) set_child(flat, i, inner.bounds[i], add_tree(*inner.children[i], bvh, add_leaf));
+    bvh.nodes[index] = flat;
+    return static_cast<int>(index);
+}
+
+class LeafFlattener
 {
 public:
-    Flattener(const BvhGeometry& geometry, Bvh& bvh) : geometry_(geometry), bvh_(bvh) {}
+    LeafFlattener(const BvhGeometry& geometry, Bvh& bvh) : geometry_(geometry), bvh_(bvh) {}
 
-    int add(const BuildNode& node)
-    {
-        return node.is_leaf ? add(static_cast<const BuildLeaf&>(node)) : add(static_cast<const BuildInner&>(node));
-    }
-
-private:
-    int add(const BuildInner& inner)
-    {
-        const std::size_t index = bvh_.nodes.size();
-        bvh_.nodes.emplace_back();
-        BvhNode node;
-        for (int i = 0; i < BVH_WIDTH; i++) {
-            const bool used = i < inner.count;
-            const Bounds bounds = used ? inner.bounds[i] : Bounds{{nowhere, nowhere, nowhere}, {nowhere, nowhere, nowhere}};
-            node.lower_x[i] = bounds.lower.x, node.upper_x[i] = bounds.upper.x;
-            node.lower_y[i] = bounds.lower.y, node.upper_y[i] = bounds.upper.y;
-            node.lower_z[i] = bounds.lower.z, node.upper_z[i] = bounds.upper.z;
-            node.child[i] = used ? add(*inner.children[i]) : empty_leaf;
-            node.unused[i] = 0;
-        }
-        bvh_.nodes[index] = node;
-        return static_cast<int>(index);
-    }
-
-    int add(const BuildLeaf& leaf)
+    int operator()(const BuildLeaf& leaf)
     {
         // Triangles come before analytic primitives, whose ids are larger.
         const uint* end = leaf.ids + leaf.count;
@@ -59,6 +67,7 @@ private:
         return ~(static_cast<int>(first_block) << (2 * BVH_LEAF_BLOCK_BITS) | triangle_blocks << BVH_LEAF_BLOCK_BITS | analytic_blocks);
     }
 
+private:
     // Unused lanes repeat the last triangle: a copy loses against its original, and, unlike a degenerate
     // triangle, does not pass for a candidate.
     int add_blocks(const uint* begin, const uint* end)
@@ -92,11 +101,28 @@ private:
 
 } // namespace
 
-void flatten_bvh(const BvhGeometry& geometry, const BuildNode& root, Bvh& bvh)
+int flatten_tree(const BvhGeometry& geometry, const BuildNode& root, Bvh& bvh)
 {
-    bvh.nodes.clear();
-    bvh.blocks.clear();
-    bvh.root = Flattener(geometry, bvh).add(root);
+    LeafFlattener add_leaf(geometry, bvh);
+    return add_tree(root, bvh, add_leaf);
+}
+
+int flatten_instance_tree(const BuildNode& root, Bvh& bvh)
+{
+    const auto add_leaf = [](const BuildLeaf& leaf) {
+        assert(leaf.count == 1);
+        return ~(static_cast<int>(leaf.ids[0] + 1) << (2 * BVH_LEAF_BLOCK_BITS));
+    };
+    return add_tree(root, bvh, add_leaf);
+}
+
+int join_trees(int first, const Bounds& first_bounds, int second, const Bounds& second_bounds, Bvh& bvh)
+{
+    BvhNode node = empty_node();
+    set_child(node, 0, first_bounds, first);
+    set_child(node, 1, second_bounds, second);
+    bvh.nodes.push_back(node);
+    return static_cast<int>(bvh.nodes.size() - 1);
 }
 
 } // namespace sundog

@@ -28,8 +28,14 @@ struct BuildLeaf : BuildNode {
     uint ids[capacity];
 };
 
-// Fills bvh.nodes, bvh.blocks and bvh.root. Nodes lie in depth-first order, a leaf's blocks together.
-// Throws SceneError when a leaf's code cannot address its blocks.
-void flatten_bvh(const BvhGeometry& geometry, const BuildNode& root, Bvh& bvh);
+// Appends to bvh.nodes and bvh.blocks and returns the tree's root, as BvhNode::child. Nodes lie in depth-first order, a
+// leaf's blocks together. Throws SceneError when a leaf's code cannot address its blocks.
+int flatten_tree(const BvhGeometry& geometry, const BuildNode& root, Bvh& bvh);
+
+// The same for a tree of instances, whose leaves hold the index of one each.
+int flatten_instance_tree(const BuildNode& root, Bvh& bvh);
+
+// A node whose children are two trees.
+int join_trees(int first, const Bounds& first_bounds, int second, const Bounds& second_bounds, Bvh& bvh);
 
 } // namespace sundog

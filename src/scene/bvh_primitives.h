@@ -10,7 +10,7 @@
 namespace sundog
 {
 
-// Box of one primitive. id: as Hit::primitive.
+// Box of one primitive or instance. id: as Hit::primitive, or the index of the instance.
 struct BvhPrimitive {
     Bounds bounds;
     uint id;

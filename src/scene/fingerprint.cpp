@@ -22,6 +22,11 @@ std::string fingerprint(const FlatScene& scene, const Camera& camera, const Pixe
 #define APPEND(type, name) append(hash, std::span<const type>(scene.name));
     SURFACE_ARRAYS(APPEND)
 #undef APPEND
+    if (!scene.instances.empty()) { // what they are of, and where: the hierarchy follows from it
+        append(hash, std::span<const Instance>(scene.instances));
+        append(hash, std::span<const uint>(scene.instance_groups));
+        append(hash, std::span<const PrimitiveRange>(scene.groups));
+    }
     append(hash, std::span(&scene.globals, 1));
     append(hash, std::span(&camera, 1));
     append(hash, std::span(&filter, 1));

@@ -12,6 +12,7 @@ namespace {
 
 struct ShapeFlattener {
     FlatScene& flat;
+    uint index;
     Shape& shape;
 
     void operator()(const TriangleMesh& mesh) const
@@ -29,7 +30,6 @@ struct ShapeFlattener {
             flat.uvs.resize(base, Vec2{});
             flat.uvs.insert(flat.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
         }
-        const uint index = static_cast<uint>(flat.shapes.size());
         for (const auto& t : mesh.triangles) flat.triangles.push_back({{base + t[0], base + t[1], base + t[2]}, index});
     }
 
@@ -74,10 +74,43 @@ struct ShapeFlattener {
     void add(AnalyticPrimitive primitive) const
     {
         shape.first_primitive = static_cast<uint>(flat.analytics.size());
-        primitive.shape = static_cast<uint>(flat.shapes.size());
+        primitive.shape = index;
         flat.analytics.push_back(primitive);
     }
 };
+
+// The shapes of one group, or those of none.
+PrimitiveRange flatten_shapes(const Scene& scene, std::optional<uint> group, FlatScene& flat)
+{
+    PrimitiveRange range;
+    range.first_triangle = static_cast<uint>(flat.triangles.size());
+    range.first_analytic = static_cast<uint>(flat.analytics.size());
+    for (uint i = 0; i < scene.shapes.size(); i++)
+        if (scene.shapes[i].group == group) std::visit(ShapeFlattener{flat, i, flat.shapes[i]}, scene.shapes[i].geometry);
+    range.triangle_count = static_cast<uint>(flat.triangles.size()) - range.first_triangle;
+    range.analytic_count = static_cast<uint>(flat.analytics.size()) - range.first_analytic;
+    return range;
+}
+
+Vec3 row(const Transform& t, std::size_t i)
+{
+    return {static_cast<float>(t.m[i][0]), static_cast<float>(t.m[i][1]), static_cast<float>(t.m[i][2])};
+}
+
+Instance flatten_instance(const InstanceDescription& description)
+{
+    const Transform to_object = description.to_world.inverse();
+    Instance instance{};
+    for (std::size_t i = 0; i < 3; i++) {
+        instance.to_world[i] = row(description.to_world, i);
+        instance.to_object[i] = row(to_object, i);
+    }
+    instance.translation = description.to_world.point({0, 0, 0});
+    for (std::size_t i = 0; i < 3; i++)
+        if (!is_finite(instance.to_world[i]) || !is_finite(instance.to_object[i]) || !is_finite(instance.translation))
+            throw SceneError(description.where, "to_world of the instance scales too much for 32-bit numbers");
+    return instance;
+}
 
 } // namespace
 
@@ -86,10 +119,12 @@ FlatScene flatten_scene(const Scene& scene)
     FlatScene flat;
     flat.bsdfs = flatten_bsdfs(scene.bsdfs);
     flatten_textures(scene, flat);
-    for (const auto& description : scene.shapes) {
-        Shape shape{description.bsdf, NO_LIGHT, 0, 0};
-        std::visit(ShapeFlattener{flat, shape}, description.geometry);
-        flat.shapes.push_back(shape);
+    for (const auto& description : scene.shapes) flat.shapes.push_back({description.bsdf, NO_LIGHT, 0, 0});
+    flat.world = flatten_shapes(scene, std::nullopt, flat);
+    for (uint group = 0; group < scene.groups.size(); group++) flat.groups.push_back(flatten_shapes(scene, group, flat));
+    for (const auto& instance : scene.instances) {
+        flat.instances.push_back(flatten_instance(instance));
+        flat.instance_groups.push_back(instance.group);
     }
     if (!flat.normals.empty()) flat.normals.resize(flat.positions.size(), Vec3{});
     if (!flat.uvs.empty()) flat.uvs.resize(flat.positions.size(), Vec2{});
@@ -106,6 +141,13 @@ FlatScene flatten_scene(const Scene& scene)
 bool has_delta_lights(const FlatScene& flat)
 {
     return std::any_of(flat.lights.begin(), flat.lights.end(), [](const Light& light) { return LIGHT_IS_DELTA(light.type); });
+}
+
+uint light_types(const FlatScene& flat)
+{
+    uint types = 0;
+    for (const Light& light : flat.lights) types |= 1u << light.type;
+    return types;
 }
 
 bool needs_texture_coordinates(const FlatScene& flat)

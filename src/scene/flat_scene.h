@@ -9,6 +9,14 @@
 
 namespace sundog {
 
+// Consecutive primitives: those of the world, or of one group.
+struct PrimitiveRange {
+    uint first_triangle = 0;
+    uint triangle_count = 0;
+    uint first_analytic = 0;
+    uint analytic_count = 0;
+};
+
 struct FlatScene {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals; // one a position when any shape has them, else empty
@@ -19,10 +27,17 @@ struct FlatScene {
     std::vector<uint> texels;
     std::vector<Triangle> triangles;
     std::vector<AnalyticPrimitive> analytics;
+    PrimitiveRange world; // the first primitives; those of the groups follow, group by group
+    std::vector<PrimitiveRange> groups;
+    std::vector<Instance> instances; // all but root, center and radius, which follow from the hierarchy
+    std::vector<uint> instance_groups; // index into groups, one an instance
     std::vector<Shape> shapes;
     std::vector<Bsdf> bsdfs;
     std::vector<Light> lights;
     std::vector<AliasEntry> light_alias; // one a light
+    std::vector<LightProjection> light_projections;
+    std::vector<EnvironmentMap> environment_maps; // at most one
+    std::vector<AliasEntry> environment_alias; // one a patch
     SceneGlobals globals{}; // all but bvh_root
 };
 
@@ -31,6 +46,9 @@ FlatScene flatten_scene(const Scene& scene);
 
 // Whether paths may start at a light that none can hit: points and directions.
 bool has_delta_lights(const FlatScene& flat);
+
+// Bit t is set where there are lights of type t: what kernels are specialised for.
+uint light_types(const FlatScene& flat);
 
 // Whether kernels need texture coordinates: for textures and anisotropic lobes.
 bool needs_texture_coordinates(const FlatScene& flat);

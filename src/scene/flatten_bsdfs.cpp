@@ -46,6 +46,20 @@ template <class Map> uint relief_flags(const Map& map)
     return (map.flip_invalid ? BSDF_FLIPS_NORMALS : 0u) | (map.shadowing ? BSDF_SHADOWS_RELIEF : 0u);
 }
 
+Vec3 first_three(const double (&values)[4])
+{
+    return {static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2])};
+}
+
+void set_dispersion(Bsdf& bsdf, const SellmeierFormula& formula)
+{
+    bsdf.flags |= BSDF_DISPERSIVE;
+    bsdf.eta_rgb = first_three(formula.b);
+    bsdf.k_rgb = first_three(formula.c);
+    bsdf.sellmeier_b4 = static_cast<float>(formula.b[3]);
+    bsdf.sellmeier_c4 = static_cast<float>(formula.c[3]);
+}
+
 // Of one description by itself; what it takes from nested ones comes later.
 struct BsdfFlattener {
     Bsdf operator()(const DiffuseBsdf& diffuse) const
@@ -63,6 +77,7 @@ struct BsdfFlattener {
         bsdf.specular = flatten(dielectric.specular_reflectance);
         bsdf.transmittance = flatten(dielectric.specular_transmittance);
         set_roughness(bsdf, dielectric.roughness);
+        if (dielectric.dispersion) set_dispersion(bsdf, *dielectric.dispersion);
         return bsdf;
     }
     Bsdf operator()(const ConductorBsdf& conductor) const
@@ -83,13 +98,13 @@ struct BsdfFlattener {
         bsdf.reflectance = flatten(plastic.diffuse_reflectance);
         bsdf.specular = flatten(plastic.specular_reflectance);
         if (!plastic.roughness) {
-            bsdf.internal_reflectance = smooth_internal_reflectance(bsdf.eta);
+            bsdf.weight.value = smooth_internal_reflectance(bsdf.eta);
             return bsdf;
         }
         const float alpha = std::max(plastic.roughness->alpha_u.value, 1e-3f);
         const CoatTransmission transmission = rough_coat(bsdf.eta, alpha, plastic.roughness->beckmann);
         bsdf.alpha_u = bsdf.alpha_v = {alpha, NO_TEXTURE};
-        bsdf.internal_reflectance = transmission.internal_reflectance;
+        bsdf.weight.value = transmission.internal_reflectance;
         const auto& c = transmission.series;
         bsdf.eta_rgb = {c[0], c[1], c[2]};
         bsdf.k_rgb = {c[3], c[4], c[5]};
@@ -194,6 +209,11 @@ std::vector<Bsdf> flatten_bsdfs(const std::vector<BsdfDescription>& descriptions
     for (const auto& description : descriptions) bsdfs.push_back(std::visit(BsdfFlattener{}, description.model));
     for (std::size_t i = 0; i < descriptions.size(); i++) take_from_nested(descriptions[i], bsdfs, i);
     return bsdfs;
+}
+
+bool has_dispersion(std::span<const Bsdf> bsdfs)
+{
+    return std::any_of(bsdfs.begin(), bsdfs.end(), [](const Bsdf& bsdf) { return (bsdf.flags & BSDF_DISPERSIVE) != 0; });
 }
 
 uint bsdf_types(std::span<const Bsdf> bsdfs)

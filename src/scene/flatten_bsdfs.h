@@ -15,6 +15,9 @@ std::vector<Bsdf> flatten_bsdfs(const std::vector<BsdfDescription>& descriptions
 TexturedColor flatten(const ColorSource& color);
 TexturedNumber flatten(const NumberSource& number);
 
+// Whether some index depends on the wavelength.
+bool has_dispersion(std::span<const Bsdf> bsdfs);
+
 // Bit t is set where there are BSDFs of type t: what kernels are specialised for.
 uint bsdf_types(std::span<const Bsdf> bsdfs);
 

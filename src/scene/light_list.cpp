@@ -1,5 +1,7 @@
 #include "scene/light_list.h"
 
+#include "scene/flatten_environment.h"
+
 #include <numbers>
 
 namespace sundog {
@@ -31,13 +33,22 @@ float area_of(const FlatScene& flat, const Triangle& triangle)
     return 0.5f * length(cross(flat.positions[triangle.vertex[1]] - a, flat.positions[triangle.vertex[2]] - a));
 }
 
+Light dark_light(uint type)
+{
+    Light light{};
+    light.type = type;
+    light.texture = NO_TEXTURE;
+    return light;
+}
+
 void list_area_lights(const Scene& scene, FlatScene& flat)
 {
     for (std::size_t i = 0; i < scene.shapes.size(); i++) {
         if (!scene.shapes[i].emitter) continue;
         Shape& shape = flat.shapes[i];
         shape.first_light = static_cast<uint>(flat.lights.size());
-        Light light{};
+        Light light = dark_light(LIGHT_TRIANGLE);
+        light.texture = scene.shapes[i].emitter->texture.value_or(NO_TEXTURE);
         light.emission = scene.shapes[i].emitter->radiance;
         if (const auto* mesh = std::get_if<TriangleMesh>(&scene.shapes[i].geometry)) {
             light.type = LIGHT_TRIANGLE;
@@ -59,16 +70,18 @@ void list_area_lights(const Scene& scene, FlatScene& flat)
 struct EmitterFlattener {
     Light operator()(const PointEmitter& point) const
     {
-        Light light{};
-        light.type = LIGHT_POINT;
+        Light light = dark_light(LIGHT_POINT);
         light.emission = point.intensity;
         light.position = point.position;
         return light;
     }
     Light operator()(const SpotEmitter& spot) const
     {
-        Light light{};
-        light.type = LIGHT_SPOT;
+        Light light = dark_light(LIGHT_SPOT);
+        light.texture = spot.texture.value_or(NO_TEXTURE);
+        // Negative: texture coordinates grow along the axes.
+        const float half = -std::tan(spot.cutoff_angle);
+        if (spot.texture) light.primitive = add_projection({spot.axis_x, half, spot.axis_y, half});
         light.emission = spot.intensity;
         light.position = spot.position;
         light.direction = spot.direction;
@@ -78,19 +91,46 @@ struct EmitterFlattener {
     }
     Light operator()(const DirectionalEmitter& directional) const
     {
-        Light light{};
-        light.type = LIGHT_DIRECTIONAL;
+        Light light = dark_light(LIGHT_DIRECTIONAL);
         light.emission = directional.irradiance;
         light.direction = directional.direction;
         return light;
     }
     Light operator()(const ConstantEmitter& constant) const
     {
-        Light light{};
-        light.type = LIGHT_CONSTANT;
+        Light light = dark_light(LIGHT_CONSTANT);
         light.emission = constant.radiance;
         return light;
     }
+    Light operator()(const EnvironmentEmitter& environment) const
+    {
+        Light light = dark_light(LIGHT_ENVMAP);
+        light.primitive = append_environment(environment, where, flat);
+        light.emission = Vec3{1, 1, 1} * environment.scale;
+        light.area = static_cast<float>(mean_luminance(environment));
+        return light;
+    }
+
+    Light operator()(const ProjectorEmitter& projector) const
+    {
+        Light light = dark_light(LIGHT_PROJECTOR);
+        light.primitive = add_projection({projector.axis_x, projector.half_width, projector.axis_y, projector.half_height});
+        light.texture = projector.texture.value_or(NO_TEXTURE);
+        light.emission = projector.irradiance;
+        light.position = projector.position;
+        light.direction = projector.axis_z;
+        light.area = 4.0f * projector.half_width * projector.half_height;
+        return light;
+    }
+
+    uint add_projection(LightProjection projection) const
+    {
+        flat.light_projections.push_back(projection);
+        return static_cast<uint>(flat.light_projections.size() - 1);
+    }
+
+    const SourceLocation& where;
+    FlatScene& flat;
 };
 
 // Flux (W) into the scene, whose bounding sphere's radius bounds what distant lights send.
@@ -104,8 +144,38 @@ double power_of(const Light& light, double scene_radius)
     case LIGHT_SPOT: return emission * 2.0 * pi * (1.0 - std::cos(0.5 * (static_cast<double>(light.cutoff_angle) + light.beam_width)));
     case LIGHT_DIRECTIONAL: return emission * disk;
     case LIGHT_CONSTANT: return emission * pi * 4.0 * disk;
+    case LIGHT_PROJECTOR: return emission * static_cast<double>(light.area);
+    case LIGHT_ENVMAP: return emission * static_cast<double>(light.area) * pi * 4.0 * disk;
     default: return emission * pi * static_cast<double>(light.area);
     }
+}
+
+// The chance of each light to be chosen: by power, but for emitter_floor of all choices, which go in equal parts to
+// the emitters and by power within each. So a lamp that is weak beside the sun still has photons for its caustic, a
+// mesh of many triangles counts as one, and noise rises by 1 / (1 - emitter_floor) at most. Nothing without any power.
+std::vector<double> light_chances(const std::vector<double>& powers, const std::vector<std::size_t>& emitter_starts)
+{
+    std::vector<double> emitter_powers(emitter_starts.size(), 0.0);
+    std::vector<std::size_t> emitter_of(powers.size());
+    for (std::size_t e = 0; e < emitter_starts.size(); e++) {
+        const std::size_t end = e + 1 < emitter_starts.size() ? emitter_starts[e + 1] : powers.size();
+        for (std::size_t i = emitter_starts[e]; i < end; i++) {
+            emitter_of[i] = e;
+            emitter_powers[e] += powers[i];
+        }
+    }
+    double total = 0.0, shining = 0.0;
+    for (const double power : emitter_powers) {
+        total += power;
+        shining += power > 0.0;
+    }
+    if (!(total > 0.0)) return {};
+    std::vector<double> chances(powers.size(), 0.0);
+    for (std::size_t i = 0; i < powers.size(); i++) {
+        if (powers[i] > 0.0)
+            chances[i] = (1.0 - emitter_floor) * powers[i] / total + emitter_floor / shining * powers[i] / emitter_powers[emitter_of[i]];
+    }
+    return chances;
 }
 
 } // namespace
@@ -142,21 +212,23 @@ std::vector<AliasEntry> make_alias_table(const std::vector<double>& weights, std
 void list_lights(const Scene& scene, FlatScene& flat)
 {
     list_area_lights(scene, flat);
-    flat.globals.constant_light = NO_LIGHT;
+    flat.globals.environment_light = NO_LIGHT;
+    std::vector<std::size_t> emitter_starts; // each emitter's first light
+    for (const Shape& shape : flat.shapes)
+        if (shape.first_light != NO_LIGHT) emitter_starts.push_back(shape.first_light);
     for (const auto& emitter : scene.emitters) {
-        if (std::holds_alternative<ConstantEmitter>(emitter.model)) flat.globals.constant_light = static_cast<uint>(flat.lights.size());
-        flat.lights.push_back(std::visit(EmitterFlattener{}, emitter.model));
+        emitter_starts.push_back(flat.lights.size());
+        flat.lights.push_back(std::visit(EmitterFlattener{emitter.where, flat}, emitter.model));
+        const uint type = flat.lights.back().type;
+        if (type == LIGHT_CONSTANT || type == LIGHT_ENVMAP) flat.globals.environment_light = static_cast<uint>(flat.lights.size() - 1);
     }
 
     std::vector<double> powers;
-    double total = 0.0;
-    for (const Light& light : flat.lights) {
-        powers.push_back(power_of(light, flat.globals.radius));
-        total += powers.back();
-    }
-    if (!(total > 0.0)) throw SceneError({scene.file, 0}, "no light has any power; add an <emitter> with a positive radiance or intensity");
+    for (const Light& light : flat.lights) powers.push_back(power_of(light, flat.globals.radius));
+    const std::vector<double> chances = light_chances(powers, emitter_starts);
+    if (chances.empty()) throw SceneError({scene.file, 0}, "no light has any power; add an <emitter> with a positive radiance or intensity");
     std::vector<float> probabilities;
-    flat.light_alias = make_alias_table(powers, probabilities);
+    flat.light_alias = make_alias_table(chances, probabilities);
     for (std::size_t i = 0; i < flat.lights.size(); i++) flat.lights[i].probability = probabilities[i];
     flat.globals.light_count = static_cast<uint>(flat.lights.size());
 }

@@ -35,6 +35,12 @@ Bounds bounds_of(const Cylinder& cylinder)
     return {min(cylinder.start, end) - r, max(cylinder.start, end) + r};
 }
 
+std::size_t triangles_of(const ShapeDescription& shape)
+{
+    const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
+    return mesh ? mesh->triangles.size() : 0;
+}
+
 } // namespace
 
 Vec3 Disk::normal() const
@@ -43,18 +49,43 @@ Vec3 Disk::normal() const
     return flip_normals ? -n : n;
 }
 
+double TextureDescription::aspect() const
+{
+    const auto* bitmap = std::get_if<BitmapTexture>(&model);
+    return bitmap ? static_cast<double>(bitmap->image->width) / bitmap->image->height : 1.0;
+}
+
 std::size_t Scene::triangle_count() const
 {
     std::size_t count = 0;
-    for (const auto& shape : shapes)
-        if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) count += mesh->triangles.size();
+    for (const auto& shape : shapes) count += triangles_of(shape);
     return count;
+}
+
+std::size_t Scene::triangle_count_with_copies() const
+{
+    std::vector<std::size_t> of_group(groups.size());
+    std::size_t count = 0;
+    for (const auto& shape : shapes) (shape.group ? of_group[*shape.group] : count) += triangles_of(shape);
+    for (const auto& instance : instances) count += of_group[instance.group];
+    return count;
+}
+
+bool Scene::has_dispersion() const
+{
+    return std::any_of(bsdfs.begin(), bsdfs.end(), [](const BsdfDescription& bsdf) {
+        const auto* dielectric = std::get_if<DielectricBsdf>(&bsdf.model);
+        return dielectric && dielectric->dispersion;
+    });
 }
 
 Bounds Scene::bounds() const
 {
     Bounds all;
-    for (const auto& shape : shapes) all.extend(std::visit([](const auto& g) { return bounds_of(g); }, shape.geometry));
+    std::vector<Bounds> of_group(groups.size());
+    for (const auto& shape : shapes)
+        (shape.group ? of_group[*shape.group] : all).extend(std::visit([](const auto& g) { return bounds_of(g); }, shape.geometry));
+    for (const auto& instance : instances) all.extend(instance.to_world.box(of_group[instance.group]));
     return all;
 }
 

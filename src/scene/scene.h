@@ -6,7 +6,9 @@
 
 #include "base/errors.h"
 #include "math/bounds.h"
+#include "math/transform.h"
 #include "math/vec3.h"
+#include "scene/dispersion.h"
 #include "shared/vec2.h"
 
 #include <array>
@@ -91,7 +93,7 @@ struct NumberSource {
     NumberSource(float factor, uint index) : value(factor), texture(index) {}
 };
 
-enum class TexelFormat { srgb8, linear8, half }; // as TEXELS_... of kernels/shared/texture.h
+enum class TexelFormat { srgb8, linear8, half, float32 }; // as TEXELS_... of kernels/shared/texture.h; float32 of environments alone
 enum class WrapMode { repeat, mirror, clamp };
 enum class TextureFilter { nearest, bilinear };
 
@@ -100,9 +102,9 @@ struct TexelImage {
     int width = 0;
     int height = 0;
     TexelFormat format = TexelFormat::srgb8;
-    std::vector<uint> texels; // a texel's one (8 bits) or two (half) words
+    std::vector<uint> texels; // a texel's one (8 bits), two (half) or three (float) words
 
-    std::size_t words_per_texel() const { return format == TexelFormat::half ? 2 : 1; }
+    std::size_t words_per_texel() const { return format == TexelFormat::float32 ? 3 : format == TexelFormat::half ? 2 : 1; }
 };
 
 struct BitmapTexture {
@@ -125,6 +127,8 @@ struct TextureDescription {
     std::array<float, 3> to_u{1, 0, 0}; // u' = to_u . (u, v, 1)
     std::array<float, 3> to_v{0, 1, 0};
     std::variant<BitmapTexture, CheckerboardTexture, AttributeTexture> model;
+
+    double aspect() const; // of a bitmap, width over height; 1 for others
 };
 
 // --- Scattering ---------------------------------------------------------------
@@ -147,6 +151,8 @@ struct DielectricBsdf {
     ColorSource specular_reflectance;
     ColorSource specular_transmittance;
     std::optional<Roughness> roughness = std::nullopt; // never of a thin one
+    // Of the interior; int_ior is its index at the sodium D line. Shows in spectral transport.
+    std::optional<SellmeierFormula> dispersion = std::nullopt;
 };
 
 // eta and k relative to the exterior medium. eta = 0 and k = 1 (material "none")
@@ -215,6 +221,7 @@ struct BsdfDescription {
 
 struct AreaEmitter {
     Vec3 radiance; // W/m^2/sr, from the normal's side
+    std::optional<uint> texture = std::nullopt; // factor on the radiance: an index into Scene::textures
 };
 
 struct ShapeDescription {
@@ -223,6 +230,20 @@ struct ShapeDescription {
     std::variant<TriangleMesh, Sphere, Disk, Cylinder> geometry;
     uint bsdf = 0; // index into Scene::bsdfs
     std::optional<AreaEmitter> emitter;
+    std::optional<uint> group = std::nullopt; // index into Scene::groups of the one it belongs to; else it lies in the world
+};
+
+// Shapes that are seen only where an instance places a copy of them. They name their group; none of them emits light.
+struct ShapeGroup {
+    std::string id;
+    SourceLocation where;
+};
+
+struct InstanceDescription {
+    std::string id;
+    SourceLocation where;
+    uint group = 0; // index into Scene::groups
+    Transform to_world; // affine, not singular
 };
 
 struct PointEmitter {
@@ -236,6 +257,21 @@ struct SpotEmitter {
     Vec3 intensity; // on the axis, W/sr
     float cutoff_angle; // rad
     float beam_width; // rad, <= cutoff_angle; linear fall-off in angle between the two
+    std::optional<uint> texture = std::nullopt; // factor on the intensity; fills the square about the cone
+    Vec3 axis_x{1, 0, 0}; // where the texture's u grows, unit length, orthogonal to the direction
+    Vec3 axis_y{0, 1, 0}; // where its v grows: down its image
+};
+
+// An image thrown like a camera's picture in reverse.
+struct ProjectorEmitter {
+    Vec3 position;
+    Vec3 axis_x{1, 0, 0}; // to the left of the image, unit length
+    Vec3 axis_y{0, 1, 0}; // up
+    Vec3 axis_z{0, 0, 1}; // of propagation
+    float half_width = 1.0f; // of the image on a plane one unit away
+    float half_height = 1.0f;
+    Vec3 irradiance; // W/m^2 on that plane
+    std::optional<uint> texture; // factor on it
 };
 
 struct DirectionalEmitter {
@@ -247,9 +283,19 @@ struct ConstantEmitter {
     Vec3 radiance; // W/m^2/sr
 };
 
+// A latitude-longitude image around the scene, in Mitsuba's orientation: its middle column is seen along axis_z, its
+// first row along axis_y, columns to the right of the middle towards -axis_x.
+struct EnvironmentEmitter {
+    std::shared_ptr<const TexelImage> image; // float32, radiance (W/m^2/sr), nowhere negative
+    float scale = 1.0f;
+    Vec3 axis_x{1, 0, 0}; // unit length and orthogonal
+    Vec3 axis_y{0, 1, 0};
+    Vec3 axis_z{0, 0, 1};
+};
+
 struct EmitterDescription {
     SourceLocation where;
-    std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter> model;
+    std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter, EnvironmentEmitter, ProjectorEmitter> model;
 };
 
 // --- Sensor and film ------------------------------------------------------------
@@ -315,14 +361,18 @@ struct Scene {
     std::string file;
     std::vector<TextureDescription> textures;
     std::vector<BsdfDescription> bsdfs;
-    std::vector<ShapeDescription> shapes;
+    std::vector<ShapeDescription> shapes; // of the world and of groups
+    std::vector<ShapeGroup> groups;
+    std::vector<InstanceDescription> instances;
     std::vector<EmitterDescription> emitters; // all but area emitters
     Sensor sensor;
     Film film;
     IntegratorRequest integrator;
 
-    std::size_t triangle_count() const;
-    Bounds bounds() const;
+    std::size_t triangle_count() const; // as stored: those of groups once
+    std::size_t triangle_count_with_copies() const; // as seen
+    Bounds bounds() const; // of all that is seen; around instances not tight
+    bool has_dispersion() const;
 };
 
 } // namespace sundog

@@ -1,5 +1,7 @@
 #include "scene/spectrum.h"
 
+#include "scene/cie_tables.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,37 +12,39 @@ namespace sundog
 namespace
 {
 
-constexpr double lambda_min = 360.0; // nm, of the visible range as CIE tabulates it
-constexpr double lambda_max = 830.0;
 constexpr int steps = 940; // midpoints every half nanometre
 
 struct Xyz {
     double x = 0, y = 0, z = 0;
 };
 
-// A Gaussian whose two halves have their own inverse widths.
-double lobe(double wavelength, double centre, double below, double above)
+struct Cie {
+    Xyz bar;
+    double d65;
+};
+
+// The tables, linear in between; the wavelength must be in their range.
+Cie cie_at(double wavelength)
 {
-    const double t = (wavelength - centre) * (wavelength < centre ? below : above);
-    return std::exp(-0.5 * t * t);
+    const auto rows = cie_rows();
+    const double position = (wavelength - cie_lambda_min) / cie_lambda_step;
+    const auto i = std::min(static_cast<std::size_t>(position), rows.size() - 2);
+    const double t = position - static_cast<double>(i);
+    const auto mix = [&](float CieRow::*column) {
+        return (1.0 - t) * static_cast<double>(rows[i].*column) + t * static_cast<double>(rows[i + 1].*column);
+    };
+    return {{mix(&CieRow::x), mix(&CieRow::y), mix(&CieRow::z)}, mix(&CieRow::d65)};
 }
 
-Xyz matching(double l)
-{
-    return {1.056 * lobe(l, 599.8, 0.0264, 0.0323) + 0.362 * lobe(l, 442.0, 0.0624, 0.0374) - 0.065 * lobe(l, 501.1, 0.0490, 0.0382),
-            0.821 * lobe(l, 568.8, 0.0213, 0.0247) + 0.286 * lobe(l, 530.9, 0.0613, 0.0322),
-            1.217 * lobe(l, 437.0, 0.0845, 0.0278) + 0.681 * lobe(l, 459.0, 0.0385, 0.0725)};
-}
-
-// Integral of the matching functions against a function of wavelength (nm).
+// Integral of the matching functions against a function of wavelength (nm) and D65.
 template <typename Function> Xyz integrate(Function&& value)
 {
     Xyz sum;
-    const double step = (lambda_max - lambda_min) / steps;
+    const double step = (cie_lambda_max - cie_lambda_min) / steps;
     for (int i = 0; i < steps; i++) {
-        const double wavelength = lambda_min + (i + 0.5) * step;
-        const double v = value(wavelength) * step;
-        const Xyz bar = matching(wavelength);
+        const double wavelength = cie_lambda_min + (i + 0.5) * step;
+        const auto [bar, d65] = cie_at(wavelength);
+        const double v = value(wavelength, d65) * step;
         sum.x += v * bar.x;
         sum.y += v * bar.y;
         sum.z += v * bar.z;
@@ -48,10 +52,16 @@ template <typename Function> Xyz integrate(Function&& value)
     return sum;
 }
 
-// Colour of the constant spectrum 1.
-const Xyz& equal_energy()
+// Luminance of the constant spectrum 1.
+double equal_energy_luminance()
 {
-    static const Xyz sum = integrate([](double) { return 1.0; });
+    static const double luminance = integrate([](double, double) { return 1.0; }).y;
+    return luminance;
+}
+
+const Xyz& daylight()
+{
+    static const Xyz sum = integrate([](double, double d65) { return d65; });
     return sum;
 }
 
@@ -71,9 +81,9 @@ Vec3 non_negative(Vec3 colour)
     return max(colour, Vec3{0, 0, 0});
 }
 
-Vec3 normalized_to_rgb(const Xyz& sum)
+Vec3 to_rgb(const Xyz& sum, double white_luminance)
 {
-    const double scale = 1.0 / equal_energy().y;
+    const double scale = 1.0 / white_luminance;
     return linear_srgb_from_xyz(sum.x * scale, sum.y * scale, sum.z * scale);
 }
 
@@ -81,7 +91,8 @@ Vec3 normalized_to_rgb(const Xyz& sum)
 
 Vec3 cie_1931(double wavelength)
 {
-    const Xyz bar = matching(wavelength);
+    if (!(wavelength >= cie_lambda_min && wavelength <= cie_lambda_max)) return {0, 0, 0};
+    const Xyz bar = cie_at(wavelength).bar;
     return {static_cast<float>(bar.x), static_cast<float>(bar.y), static_cast<float>(bar.z)};
 }
 
@@ -93,8 +104,9 @@ Vec3 linear_srgb_from_xyz(double x, double y, double z)
 
 Vec3 index_to_rgb(std::span<const SpectrumSample> samples)
 {
-    const Vec3 colour = normalized_to_rgb(integrate([&](double w) { return interpolate(samples, w); }));
-    const Vec3 white = normalized_to_rgb(equal_energy());
+    const auto lit = integrate([&](double w, double d65) { return interpolate(samples, w) * d65; });
+    const Vec3 colour = to_rgb(lit, daylight().y);
+    const Vec3 white = to_rgb(daylight(), daylight().y); // (1, 1, 1) but for the rounding of the matrix
     return non_negative({colour.x / white.x, colour.y / white.y, colour.z / white.z});
 }
 
@@ -105,23 +117,18 @@ Vec3 reflectance_to_rgb(std::span<const SpectrumSample> samples)
 
 Vec3 emission_to_rgb(std::span<const SpectrumSample> samples)
 {
-    return non_negative(normalized_to_rgb(integrate([&](double w) { return interpolate(samples, w); })));
+    return non_negative(to_rgb(integrate([&](double w, double) { return interpolate(samples, w); }), equal_energy_luminance()));
 }
 
 Vec3 blackbody_to_rgb(double kelvin)
 {
     // Planck's law with the exact SI constants: B = 2 h c^2 / lambda^5 / (exp(h c / (lambda k T)) - 1).
     constexpr double c = 2.99792458e8, h = 6.62607015e-34, k = 1.380649e-23;
-    const auto planck = [=](double nanometres) {
+    const auto planck = [=](double nanometres, double) {
         const double lambda = nanometres * 1e-9;
         return 1e-9 * 2.0 * h * c * c / (std::pow(lambda, 5) * std::expm1(h * c / (lambda * k * kelvin)));
     };
-    return non_negative(normalized_to_rgb(integrate(planck)));
-}
-
-float srgb_decode(float encoded)
-{
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+    return non_negative(to_rgb(integrate(planck), equal_energy_luminance()));
 }
 
 } // namespace sundog

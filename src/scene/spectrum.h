@@ -13,15 +13,14 @@ struct SpectrumSample {
     double value;
 };
 
-// The CIE 1931 2-degree colour matching functions (x, y, z) at a wavelength in nm, by the multi-lobe fit of
-// [Wyman, Sloan, Shirley 2013, JCGT 2(2), eq. 4].
+// The CIE 1931 2-degree colour matching functions (x, y, z) at a wavelength in nm; 0 outside of 360 to 830 nm.
 Vec3 cie_1931(double wavelength);
 
 // Linear sRGB (Rec. 709 primaries, D65 white) of CIE XYZ.
 Vec3 linear_srgb_from_xyz(double x, double y, double z);
 
-// A spectral reflectance or transmittance, linear between samples and 0 outside of them, seen under
-// equal-energy light whose own colour is scaled to (1, 1, 1): 1 at all wavelengths becomes (1, 1, 1).
+// A spectral reflectance or transmittance, linear between samples and 0 outside of them, seen under the illuminant
+// D65, as in Mitsuba 3: 1 at all wavelengths becomes (1, 1, 1).
 // Clamped to [0, 1]. Samples in increasing order of wavelength, at least two.
 Vec3 reflectance_to_rgb(std::span<const SpectrumSample> samples);
 
@@ -34,8 +33,5 @@ Vec3 emission_to_rgb(std::span<const SpectrumSample> samples);
 
 // Radiance of a black body (kelvin > 0) by Planck's law in W/m^2/sr/nm, reduced as by emission_to_rgb.
 Vec3 blackbody_to_rgb(double kelvin);
-
-// IEC 61966-2-1: a display value in [0, 1] to linear.
-float srgb_decode(float encoded);
 
 } // namespace sundog

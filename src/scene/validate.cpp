@@ -1,5 +1,7 @@
 #include "scene/validate.h"
 
+#include "scene/flatten_environment.h"
+
 #include <cmath>
 #include <numbers>
 
@@ -45,13 +47,15 @@ Vec3 emission_of(const EmitterDescription& emitter)
         Vec3 operator()(const SpotEmitter& e) const { return e.intensity; }
         Vec3 operator()(const DirectionalEmitter& e) const { return e.irradiance; }
         Vec3 operator()(const ConstantEmitter& e) const { return e.radiance; }
+        Vec3 operator()(const ProjectorEmitter& e) const { return e.irradiance; }
+        Vec3 operator()(const EnvironmentEmitter& e) const { return Vec3{1, 1, 1} * static_cast<float>(e.scale * mean_luminance(e)); }
     };
     return std::visit(Emission{}, emitter.model);
 }
 
 constexpr const char* dark = "a light that emits nothing is left out";
 
-void check_area_lights(Scene& scene, std::vector<std::string>& warnings)
+void check_area_lights(Scene& scene, std::vector<Warning>& warnings)
 {
     for (auto& shape : scene.shapes) {
         if (!shape.emitter) continue;
@@ -67,13 +71,13 @@ void check_area_lights(Scene& scene, std::vector<std::string>& warnings)
     }
 }
 
-void check_emitters(Scene& scene, std::vector<std::string>& warnings)
+void check_emitters(Scene& scene, std::vector<Warning>& warnings)
 {
     bool environment = false;
     for (std::size_t i = 0; i < scene.emitters.size();) {
         const auto& emitter = scene.emitters[i];
-        if (std::holds_alternative<ConstantEmitter>(emitter.model)) {
-            if (environment) throw SceneError(emitter.where, "the scene has two environments: keep one constant emitter");
+        if (std::holds_alternative<ConstantEmitter>(emitter.model) || std::holds_alternative<EnvironmentEmitter>(emitter.model)) {
+            if (environment) throw SceneError(emitter.where, "the scene has two environments: keep one constant or envmap emitter");
             environment = true;
         }
         if (max_component(emission_of(emitter)) > 0.0f) {
@@ -92,7 +96,7 @@ double surface_area(const ShapeDescription& shape)
     return std::visit([](const auto& geometry) { return area_of(geometry); }, shape.geometry);
 }
 
-void validate_scene(Scene& scene, std::vector<std::string>& warnings)
+void validate_scene(Scene& scene, std::vector<Warning>& warnings)
 {
     if (scene.shapes.empty()) throw SceneError({scene.file, 0}, "the scene has no <shape>: there is nothing to render");
     if (scene.triangle_count() > max_primitives)

@@ -1,6 +1,7 @@
 #include "stages/device_scene.h"
 
 #include "scene/flatten_bsdfs.h"
+#include "scene/scene_bvh.h"
 
 namespace sundog {
 
@@ -13,30 +14,42 @@ template <class T> Buffer<T> upload(Device& device, const std::vector<T>& data, 
     return data.empty() ? Buffer<T>(device, std::vector<T>(1), label) : Buffer<T>(device, data, label);
 }
 
-BuildOptions surface_options(const FlatScene& flat)
+BuildOptions surface_options(const FlatScene& flat, bool spectral)
 {
     BuildOptions options;
     options.defines.emplace_back("BSDF_TYPES", std::to_string(bsdf_types(flat.bsdfs)) + "u");
     options.defines.emplace_back("LOBE_TYPES", std::to_string(lobe_types(flat.bsdfs)) + "u");
+    options.defines.emplace_back("LIGHT_TYPES", std::to_string(light_types(flat)) + "u");
     options.defines.emplace_back("HAS_UV", needs_texture_coordinates(flat) ? "1" : "0");
+    if (!flat.instances.empty()) options.defines.emplace_back("HAS_INSTANCES", "1");
+    // Without these definitions the programs are those of RGB transport, to the last bit.
+    if (spectral) options.defines.emplace_back("SPECTRAL", "1");
+    if (spectral && has_dispersion(flat.bsdfs)) options.defines.emplace_back("DISPERSION", "1");
     return options;
 }
 
 } // namespace
 
-DeviceScene::DeviceScene(Device& device, const Scene& scene)
+DeviceScene::DeviceScene(Device& device, const Scene& scene, bool spectral) : spectral_(spectral)
 {
     const FlatScene flat = flatten_scene(scene);
-    const Bvh bvh = build_bvh({flat.positions, flat.triangles, flat.analytics});
+    const Bvh bvh = build_scene_bvh(flat);
     bounds_ = bvh.bounds;
-    trace_options_ = sundog::trace_options(flat.analytics);
-    surface_options_ = sundog::surface_options(flat);
+    trace_options_ = sundog::trace_options(flat.analytics, flat.instances);
+    surface_options_ = sundog::surface_options(flat, spectral);
     has_delta_lights_ = sundog::has_delta_lights(flat);
     has_lobes_to_evaluate_ = sundog::has_lobes_to_evaluate(flat.bsdfs);
     geometry_ = upload_geometry(device, bvh, flat.analytics, flat.globals);
+    globals_ = geometry_.globals.read(0);
 #define UPLOAD(type, name) name = upload(device, flat.name, #name);
     SURFACE_ARRAYS(UPLOAD)
 #undef UPLOAD
+}
+
+void DeviceScene::set_wavelengths(const Wavelengths& wavelengths)
+{
+    globals_.wavelengths = wavelengths;
+    geometry_.globals.upload(std::span<const SceneGlobals>(&globals_, 1));
 }
 
 void bind(ArgumentBinder& binder, const DeviceScene::Surfaces& surfaces)
@@ -44,6 +57,7 @@ void bind(ArgumentBinder& binder, const DeviceScene::Surfaces& surfaces)
     const DeviceScene& scene = *surfaces.scene;
     bind(binder, scene.geometry_.globals);
     bind(binder, scene.geometry_.analytics);
+    bind(binder, scene.geometry_.instances);
 #define BIND(type, name) bind(binder, scene.name);
     SURFACE_ARRAYS(BIND)
 #undef BIND

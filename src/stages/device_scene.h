@@ -9,8 +9,12 @@ namespace sundog {
 
 class DeviceScene {
 public:
-    // Builds the hierarchy and uploads everything.
-    DeviceScene(Device& device, const Scene& scene);
+    // Builds the hierarchy and uploads everything. spectral: kernels compute with wavelengths, which set_wavelengths()
+    // has to choose before each pass.
+    DeviceScene(Device& device, const Scene& scene, bool spectral = false);
+
+    bool is_spectral() const { return spectral_; }
+    void set_wavelengths(const Wavelengths& wavelengths);
 
     // Arguments for GEOMETRY_PARAMETERS and SURFACE_PARAMETERS.
     struct Surfaces {
@@ -34,6 +38,8 @@ public:
 private:
     friend void bind(ArgumentBinder&, const Surfaces&);
 
+    bool spectral_;
+    SceneGlobals globals_; // what the device has
     Bounds bounds_;
     BuildOptions trace_options_;
     BuildOptions surface_options_;

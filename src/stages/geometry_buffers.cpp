@@ -15,13 +15,15 @@ GeometryBuffers upload_geometry(Device& device, const Bvh& bvh, std::span<const 
     buffers.bvh_nodes = Buffer<BvhNode>(device, bvh.nodes, "hierarchy nodes");
     buffers.bvh_blocks = Buffer<BvhBlock>(device, bvh.blocks, "hierarchy triangle blocks");
     buffers.analytics = Buffer<AnalyticPrimitive>(device, analytics, "spheres and disks");
+    buffers.instances = Buffer<Instance>(device, bvh.instances, "instances");
     return buffers;
 }
 
-BuildOptions trace_options(std::span<const AnalyticPrimitive> analytics)
+BuildOptions trace_options(std::span<const AnalyticPrimitive> analytics, std::span<const Instance> instances)
 {
     BuildOptions options;
     if (!analytics.empty()) options.defines.emplace_back("HAS_ANALYTIC", "1");
+    if (!instances.empty()) options.defines.emplace_back("HAS_INSTANCES", "1");
     return options;
 }
 

@@ -21,7 +21,7 @@ struct GeometryBuffers {
 GeometryBuffers upload_geometry(Device& device, const Bvh& bvh, std::span<const AnalyticPrimitive> analytics, SceneGlobals globals = {});
 
 // Specialises trace_closest and trace_any for what the geometry contains.
-BuildOptions trace_options(std::span<const AnalyticPrimitive> analytics);
+BuildOptions trace_options(std::span<const AnalyticPrimitive> analytics, std::span<const Instance> instances = {});
 
 void bind(ArgumentBinder& binder, const GeometryBuffers& geometry);
 

@@ -3,6 +3,7 @@
 #include "support/chi_squared.h"
 #include "support/device_fixture.h"
 #include "support/direction_grid.h"
+#include "support/environment_probe.h"
 #include "support/scene_builder.h"
 
 namespace sundog
@@ -12,7 +13,7 @@ namespace
 
 using std::numbers::pi;
 
-constexpr int tests_in_file = 18;
+constexpr int tests_in_file = 22;
 constexpr uint samples = 100'000;
 
 struct Emission {
@@ -201,6 +202,47 @@ TEST_F(LightEmission, DistantLightsCoverTheScene)
             EXPECT_TRUE(follows(grid.count(directions), grid.expected([](Vec3d) { return 0.25 / pi; }, samples, 1), tests_in_file));
         }
     }
+}
+
+// Directions with the density of the map, and a flux that is radiance over that density.
+TEST_F(LightEmission, EnvironmentMap)
+{
+    for (const auto& [width, height] : {std::pair{8, 5}, std::pair{64, 33}, std::pair{6, 1}}) {
+        for (const float sun : {1.0f, 3000.0f}) {
+            const EnvironmentEmitter map = turned_environment(random_environment(width, height, sun), 0.5f);
+            const PlainEnvironment plain(map);
+            const Emission emission = emit(SceneBuilder().emitter(map).shape(Sphere{{4, 5, 6}, 2.0f, false}).scene);
+            const double disk = pi * 12.0 * 1.001 * 1.001;
+            expect_power(emission, disk * plain.integrate([](Vec3d, double radiance) { return radiance; }));
+            std::vector<Vec3d> directions;
+            int misplaced = 0;
+            for (std::size_t i = 0; i < samples; ++i) {
+                const Vec3d d = normalized(-Vec3d(emission.rays[i].direction));
+                directions.push_back(d);
+                const double flux = disk * plain.radiance(d) / plain.density(d);
+                misplaced += std::abs(emission.flux[i].x - flux) > 2e-3 * flux;
+            }
+            EXPECT_LT(misplaced, static_cast<int>(samples) / 100); // beside a patch's border, or next to black
+            if (sun > 1.0f) continue; // a bin's border through the sun would need a finer quadrature
+            const DirectionGrid grid{.rows = 12, .columns = 20};
+            EXPECT_TRUE(follows(grid.count(directions), grid.expected([&](Vec3d d) { return plain.density(d); }, samples, 24), tests_in_file, 5e-3));
+        }
+    }
+}
+
+// Uniform over the image that it throws on a plane one unit away.
+TEST_F(LightEmission, Projector)
+{
+    const ProjectorEmitter projector{.position = {1, 1, 1}, .half_width = 0.8f, .half_height = 0.5f, .irradiance = {3, 0, 0}, .texture = {}};
+    const Emission emission = emit(SceneBuilder().emitter(projector).shape(Sphere{{0, 0, 0}, 0.1f}).scene);
+    expect_power(emission, 3.0 * 4.0 * 0.8 * 0.5);
+    std::vector<double> counts(16 * 10, 0.0);
+    for (const Ray& ray : emission.rays) {
+        const double x = 0.5 + 0.5 * ray.direction.x / ray.direction.z / 0.8, y = 0.5 + 0.5 * ray.direction.y / ray.direction.z / 0.5;
+        ASSERT_TRUE(x > -1e-5 && x < 1.00001 && y > -1e-5 && y < 1.00001);
+        counts.at(static_cast<std::size_t>(std::clamp(x, 0.0, 0.99999) * 16) * 10 + static_cast<std::size_t>(std::clamp(y, 0.0, 0.99999) * 10)) += 1.0;
+    }
+    EXPECT_TRUE(is_uniform(counts, tests_in_file));
 }
 
 // Several lights together: the mean is the sum of powers, channel by channel.

@@ -1,6 +1,6 @@
 // Textures on the device against plain C++ in double precision: look-up, wrapping, filtering, transforms, nesting and mesh
 // attributes, through real hits so that texture coordinates are tested along.
-#include "scene/spectrum.h"
+#include "math/srgb.h"
 #include "stages/device_scene.h"
 #include "support/device_fixture.h"
 #include "support/double3.h"
@@ -50,7 +50,7 @@ TestImage make_image(TexelFormat format, unsigned seed)
         image.texels.push_back(r | g << 8 | b << 16);
         const auto decode = [&](uint v) {
             const float fraction = static_cast<float>(v) / 255.0f;
-            return static_cast<double>(format == TexelFormat::srgb8 ? srgb_decode(fraction) : fraction);
+            return static_cast<double>(format == TexelFormat::srgb8 ? linear_from_srgb(fraction) : fraction);
         };
         result.linear.push_back({decode(r), decode(g), decode(b)});
     }
@@ -118,7 +118,7 @@ protected:
         for (uint i = 0; i < count; ++i) {
             float b = unit(random), c = unit(random);
             if (b + c > 1.0f) b = 1.0f - b, c = 1.0f - c;
-            hits.push_back({1.0f, b, c, 2 + i % 2}); // two triangles lie before the mesh's
+            hits.push_back({1.0f, b, c, 2 + i % 2, NO_INSTANCE}); // two triangles lie before the mesh's
         }
         const Kernel kernel = test_kernel(R"(
             #include "scene/texture.h"

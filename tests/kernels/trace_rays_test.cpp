@@ -10,7 +10,7 @@ namespace
 // The nearest triangle by Moeller and Trumbore's test in double precision on every triangle.
 Hit search(const TriangleMesh& mesh, const Ray& ray, double& clearance)
 {
-    Hit hit{ray.t_max, 0, 0, NO_PRIMITIVE};
+    Hit hit{ray.t_max, 0, 0, NO_PRIMITIVE, NO_INSTANCE};
     clearance = infinite;
     for (uint i = 0; i < mesh.triangles.size(); i++) {
         const auto& [a, b, c] = mesh.triangles[i];
@@ -22,7 +22,7 @@ Hit search(const TriangleMesh& mesh, const Ray& ray, double& clearance)
         const double nearest_edge = std::min({u, v, 1.0 - u - v});
         if (t > 0.0) clearance = std::min(clearance, std::abs(nearest_edge));
         if (nearest_edge < 0.0 || !(t > 0.0) || !(t < hit.t)) continue;
-        hit = {static_cast<float>(t), static_cast<float>(u), static_cast<float>(v), i};
+        hit = {static_cast<float>(t), static_cast<float>(u), static_cast<float>(v), i, NO_INSTANCE};
     }
     return hit;
 }
@@ -141,7 +141,7 @@ TEST_F(TraceRays, OnlyActivePaths)
     load(mesh);
     const std::vector<Ray> rays(8, Ray{{0, 0, 0}, infinite, {0.1f, 0.2f, 1}, 0});
     Buffer<Ray> ray_buffer(device_, rays, "rays");
-    Buffer<Hit> hits(device_, std::vector<Hit>(8, Hit{-1, 0, 0, 77}), "hits");
+    Buffer<Hit> hits(device_, std::vector<Hit>(8, Hit{-1, 0, 0, 77, NO_INSTANCE}), "hits");
     Buffer<uint> occluded(device_, std::vector<uint>(8, 5u), "occlusion");
     Buffer<uint> active(device_, std::vector<uint>{6, 1, 3, 0}, "paths"), count(device_, std::vector<uint>{3}, "path count");
     trace_closest_(8, geometry_, ray_buffer, hits, active, count);

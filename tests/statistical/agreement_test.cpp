@@ -1,6 +1,7 @@
 // Independent estimators agree: what different methods make of one scene differs by noise alone.
 
 #include "support/cornell_scene.h"
+#include "support/environment_probe.h"
 #include "support/render_replicates.h"
 
 #include <gtest/gtest.h>
@@ -216,6 +217,37 @@ TEST(Agreement, EveryEmitter)
     scene.emitters.push_back({{}, DirectionalEmitter{normalize(Vec3{.2f, -.3f, -1}), {.5f, .5f, .5f}}});
     scene.emitters.push_back({{}, ConstantEmitter{{.2f, .2f, .2f}}});
     expect_agreement(scene, {request("path", 128), request("ptracer", 32), request("pppm", 32), request("sppm", 32)}, edge_bias);
+}
+
+// The box without ceiling, back wall and lamp, with a ball, under a turned map.
+Scene scene_under_a_map(std::shared_ptr<const TexelImage> image)
+{
+    Scene scene = cornell_box(size);
+    scene.shapes.pop_back(); // the box's own light
+    scene.shapes.erase(scene.shapes.begin() + 1, scene.shapes.begin() + 3); // ceiling and back wall
+    scene.shapes.push_back(make_sphere({.1f, -.5f, 0}, .4f, 0));
+    scene.emitters.push_back({{}, turned_environment(std::move(image), .3f)});
+    return scene;
+}
+
+TEST(Agreement, EnvironmentMap)
+{
+    expect_agreement(scene_under_a_map(random_environment(16, 9, 30.0f)),
+                     {request("path", 128), request("ptracer", 64), request("pppm", 32), request("sppm", 32), request("pppm", 32, "direct", "photons")}, edge_bias);
+}
+
+TEST(Agreement, AWhiteMapIsAConstantEnvironment)
+{
+    TexelImage white{7, 4, TexelFormat::float32, std::vector<uint>(7 * 4 * 3, std::bit_cast<uint>(1.0f))};
+    const Scene mapped = scene_under_a_map(std::make_shared<const TexelImage>(std::move(white)));
+    Scene constant = mapped;
+    constant.emitters[0].model = ConstantEmitter{{.3f, .3f, .3f}};
+    for (const auto& r : {request("path", 32), request("ptracer", 32), request("pppm", 16)}) {
+        const Estimate x = estimate_image_mean(mapped, r, replicates), y = estimate_image_mean(constant, r, replicates);
+        const double error = std::hypot(x.standard_error, y.standard_error);
+        EXPECT_NEAR(x.mean, y.mean, student_quantile(replicates - 1, 0.005 / 3) * error) << r.method;
+        EXPECT_LT(error, 0.01 * x.mean) << r.method;
+    }
 }
 
 // Into the box from its open side, off centre so that a mirrored or shifted image would show in the windows.

@@ -1,6 +1,7 @@
 // Lights as the device sees them: areas, powers, the alias table; and pixel filter tables.
 #include "base/errors.h"
 #include "scene/flat_scene.h"
+#include "scene/light_list.h"
 #include "support/scene_builder.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +69,7 @@ TEST(FlatSceneLights, AreasAndPowers)
     ASSERT_EQ(flat.lights.size(), 8u); // two triangles
     ASSERT_EQ(flat.light_alias.size(), 8u);
     EXPECT_EQ(flat.globals.light_count, 8u);
-    EXPECT_EQ(flat.globals.constant_light, 6u);
+    EXPECT_EQ(flat.globals.environment_light, 6u);
     EXPECT_EQ(flat.shapes[0].first_light, NO_LIGHT);
     EXPECT_EQ(flat.shapes[1].first_light, 0u);
     EXPECT_EQ(flat.shapes[2].first_light, 2u);
@@ -85,7 +86,27 @@ TEST(FlatSceneLights, AreasAndPowers)
     const double powers[] = {pi * 3 * 2, pi * 3 * 2, pi * pi * 4,          pi * pi * 6,
                              4 * pi * 3, disk * 0.5, 4 * pi * disk * 0.25, 2 * pi * (1 - std::cos(0.5)) * 2};
     const double total = std::accumulate(std::begin(powers), std::end(powers), 0.0);
-    for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(power(flat, i), powers[i] / total, 1e-5) << "light " << i;
+    // Seven emitters: the two triangles are one.
+    for (std::size_t i = 0; i < 8; ++i) {
+        const double floor = emitter_floor / 7.0 * (i < 2 ? 0.5 : 1.0);
+        EXPECT_NEAR(power(flat, i), (1.0 - emitter_floor) * powers[i] / total + floor, 1e-5) << "light " << i;
+    }
+}
+
+// 10^4 triangles do not take the floor from a lamp that is 10^9 times weaker, nor do they count as many.
+TEST(FlatSceneLights, AWeakEmitterHasItsShare)
+{
+    TriangleMesh mesh;
+    for (uint i = 0; i < 10'000; ++i) {
+        const float x = static_cast<float>(i);
+        for (const Vec3 p : {Vec3{x, 0, 0}, Vec3{x + 1, 0, 0}, Vec3{x, 1, 0}}) mesh.positions.push_back(p);
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const FlatScene flat = flatten_scene(SceneBuilder().light(mesh, {1, 1, 1}).emitter(PointEmitter{{0, 0, 9}, {1e-6f, 0, 0}}).scene);
+    EXPECT_NEAR(power(flat, 10'000), 0.5 * emitter_floor, 1e-6);
+    double sum = 0.0;
+    for (const Light& light : flat.lights) sum += light.probability;
+    EXPECT_NEAR(sum, 1.0, 1e-5);
 }
 
 TEST(FlatSceneLights, AnEllipsesAreaDoesNotDependOnItsAxes)

@@ -1,7 +1,7 @@
 // Image files: what is written comes back; a failure leaves neither a part nor a temporary file.
 #include "base/errors.h"
 #include "film/image_io.h"
-#include "film/tonemap.h"
+#include "math/srgb.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

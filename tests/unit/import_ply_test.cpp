@@ -1,5 +1,5 @@
 // PLY files: formats, properties, attributes, polygons.
-#include "scene/spectrum.h"
+#include "math/srgb.h"
 #include "scene/validate.h"
 #include "unit/mesh_scene.h"
 
@@ -153,7 +153,7 @@ TEST(ImportPly, VertexColors)
         EXPECT_EQ(attributes.at(0).values.at(1).z, 0.0f);
         return attributes.at(0).values.at(1).y;
     };
-    const float decoded = srgb_decode(0.2f);
+    const float decoded = linear_from_srgb(0.2f);
     for (const char* names : {"short", "long", "0.6"}) {
         EXPECT_FLOAT_EQ(green(load_mesh("c.ply", content("uchar", names))), decoded) << names;
         EXPECT_FLOAT_EQ(green(load_mesh("c.ply", content("float", names))), 0.2f) << names;

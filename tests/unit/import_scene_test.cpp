@@ -306,10 +306,17 @@ TEST(ImportScene, EmittersOfEveryKind)
     EXPECT_NEAR(spot.beam_width, 0.75f * 0.349066f, 1e-6f);
     const auto& sun = std::get<DirectionalEmitter>(emitters[2].model);
     expect_near(sun.direction, {0, -1, 0}, 0);
-    expect_near(sun.irradiance, {3, 3, 3}, 0);
+    expect_near(sun.irradiance, {3 * 1.2048f, 3 * 0.9482f, 3 * 0.9089f}, 1e-3f); // the same at all wavelengths: equal-energy white
     expect_near(std::get<ConstantEmitter>(emitters[3].model).radiance, {0.21404f, 0.21404f, 0.21404f}, 1e-5f);
     EXPECT_EQ(std::get<PointEmitter>(emitters[4].model).intensity, std::get<PointEmitter>(emitters[5].model).intensity);
     EXPECT_THAT(loaded.warnings, IsEmpty());
+}
+
+TEST(ImportScene, OneNumberAsEmissionIsGreyInOldScenes)
+{
+    const auto loaded = SceneFolder().load(R"(<scene version="0.6.0"><sensor type="perspective"/><shape type="sphere"/>
+        <emitter type="constant"><spectrum name="radiance" value="3"/></emitter></scene>)");
+    EXPECT_EQ(std::get<ConstantEmitter>(loaded.scene.emitters.at(0).model).radiance, (Vec3{3, 3, 3}));
 }
 
 TEST(ImportScene, WhatChangesNothingIsNamed)

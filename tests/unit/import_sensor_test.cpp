@@ -30,6 +30,15 @@ double expected(double degrees, double reference, double width)
     return 2 * std::atan(std::tan(degrees * std::numbers::pi / 360) * width / reference) * 180 / std::numbers::pi;
 }
 
+TEST(ImportSensor, BordersAreAlwaysSampledFromBothSides)
+{
+    const auto film = [](const std::string& value) {
+        return load_sensor("<film type=\"hdrfilm\"><boolean name=\"sample_border\" value=\"" + value + "\"/></film>").warnings;
+    };
+    EXPECT_THAT(film("true"), ::testing::IsEmpty());
+    EXPECT_THAT(film("false"), ::testing::ElementsAre(::testing::HasSubstr("sample_border is taken as true")));
+}
+
 TEST(ImportSensor, FieldOfViewAxes)
 {
     EXPECT_NEAR(fov_degrees("50", "x", 400, 300), 50, 1e-4);

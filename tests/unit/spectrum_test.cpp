@@ -1,5 +1,7 @@
+#include "math/srgb.h"
 #include "scene/spectrum.h"
 
+#include "scene/cie_tables.h"
 #include "scene/materials.h"
 #include "unit/scene_folder.h"
 
@@ -23,10 +25,13 @@ std::array<double, 2> chromaticity(Vec3 rgb)
 TEST(Spectrum, MatchingFunctionsFollowTheTables)
 {
     // CIE 1931, 2 degrees: 450 nm (0.33620, 0.03800, 1.77211), 550 nm (0.43345, 0.99495, 0.00875), 600 nm
-    // (1.0622, 0.6310, 0.0008). The fit's largest error is about 0.03 in x and z, 0.01 in y.
-    expect_near(cie_1931(450), {0.33620f, 0.03800f, 1.77211f}, 0.04f);
-    expect_near(cie_1931(550), {0.43345f, 0.99495f, 0.00875f}, 0.02f);
-    expect_near(cie_1931(600), {1.0622f, 0.6310f, 0.0008f}, 0.02f);
+    // (1.0622, 0.6310, 0.0008); linear in between.
+    expect_near(cie_1931(450), {0.33620f, 0.03800f, 1.77211f}, 1e-5f);
+    expect_near(cie_1931(550), {0.43345f, 0.99495f, 0.00875f}, 1e-5f);
+    expect_near(cie_1931(600), {1.0622f, 0.6310f, 0.0008f}, 1e-5f);
+    expect_near(cie_1931(552.5), 0.5f * (cie_1931(550) + cie_1931(555)), 1e-6f);
+    EXPECT_EQ(cie_1931(359), (Vec3{0, 0, 0}));
+    EXPECT_EQ(cie_1931(831), (Vec3{0, 0, 0}));
 }
 
 TEST(Spectrum, WhiteStaysWhite)
@@ -42,6 +47,27 @@ TEST(Spectrum, WhiteStaysWhite)
     const auto xy = chromaticity(emitted);
     EXPECT_NEAR(xy[0], 1.0 / 3.0, 2e-3);
     EXPECT_NEAR(xy[1], 1.0 / 3.0, 2e-3);
+}
+
+TEST(Spectrum, DaylightIsTheWhiteOfSrgb)
+{
+    // D65 as a reflectance-free light: chromaticity (0.31272, 0.32903) [CIE 15, table T.3].
+    std::vector<SpectrumSample> samples;
+    for (std::size_t i = 0; i < cie_rows().size(); i++)
+        samples.push_back({cie_lambda_min + cie_lambda_step * static_cast<double>(i), static_cast<double>(cie_rows()[i].d65)});
+    const auto xy = chromaticity(emission_to_rgb(samples));
+    EXPECT_NEAR(xy[0], 0.31272, 2e-4);
+    EXPECT_NEAR(xy[1], 0.32903, 2e-4);
+}
+
+// Made with mi.load_string in Mitsuba 3.7.1's scalar_rgb, whose white is 0.1 % off.
+TEST(Spectrum, SamplesBecomeTheRgbOfMitsuba)
+{
+    const std::vector<SpectrumSample> warm = {{400, 0.1}, {500, 0.2}, {550, 0.35}, {600, 0.7}, {700, 0.8}};
+    expect_near(reflectance_to_rgb(warm), {0.832488f, 0.345227f, 0.118959f}, 2e-3f);
+    const std::vector<SpectrumSample> light = {{400, 1}, {500, 2}, {600, 6}, {700, 9}};
+    expect_near(index_to_rgb(light), {7.53468f, 3.61815f, 1.19093f}, 0.015f);
+    expect_near(emission_to_rgb(light), {8.72774f, 3.4597f, 1.02482f}, 0.015f);
 }
 
 TEST(Spectrum, BandsAreOrderedByWavelength)
@@ -85,10 +111,10 @@ TEST(Spectrum, BlackBodyRadianceIsPlancks)
 
 TEST(Spectrum, SrgbDecodingMeetsItsKnots)
 {
-    EXPECT_FLOAT_EQ(srgb_decode(0.0f), 0.0f);
-    EXPECT_FLOAT_EQ(srgb_decode(1.0f), 1.0f);
-    EXPECT_NEAR(srgb_decode(0.5f), 0.21404f, 1e-5f);
-    EXPECT_NEAR(srgb_decode(0.04f), 0.04f / 12.92f, 1e-7f);
+    EXPECT_FLOAT_EQ(linear_from_srgb(0.0f), 0.0f);
+    EXPECT_FLOAT_EQ(linear_from_srgb(1.0f), 1.0f);
+    EXPECT_NEAR(linear_from_srgb(0.5f), 0.21404f, 1e-5f);
+    EXPECT_NEAR(linear_from_srgb(0.04f), 0.04f / 12.92f, 1e-7f);
 }
 
 TEST(Materials, GoldMatchesItsMeasuredSpectrum)

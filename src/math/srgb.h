@@ -5,7 +5,7 @@
 
 namespace sundog {
 
-// The sRGB transfer curve on [0, 1].
+// The sRGB transfer curve.
 float srgb_from_linear(float linear);
 float linear_from_srgb(float encoded);
 

@@ -1,4 +1,4 @@
-#include "film/tonemap.h"
+#include "math/srgb.h"
 
 #include <cmath>
 

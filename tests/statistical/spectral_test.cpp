@@ -1,0 +1,231 @@
+// Spectral transport: the same images as RGB transport where colours multiply once; methods agree on dispersion; prisms
+// bend each colour by Snell's law; the same bits again, and after a resumption.
+#include "scene/wavelength_sampling.h"
+#include "stages/device_scene.h"
+#include "support/cornell_scene.h"
+#include "support/render_replicates.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <unistd.h>
+
+using namespace sundog;
+using namespace sundog::test;
+
+namespace {
+
+constexpr int replicates = 12;
+constexpr double family_error = 0.01;
+
+RenderRequest request(const std::string& method, std::uint64_t iterations, bool spectral, const std::map<std::string, std::string>& more = {})
+{
+    RenderRequest r{method, iterations, {{"sampler", "independent"}, {"max_depth", "6"}, {"spectral", spectral ? "true" : "false"}}};
+    if (method != "path") r.parameters["photons"] = "4096";
+    if (method == "pppm" || method == "sppm") r.parameters["radius"] = "0.02";
+    for (const auto& [name, value] : more) r.parameters[name] = value;
+    return r;
+}
+
+double channel_mean(const Image& image, int channel)
+{
+    double sum = 0.0;
+    for (int y = 0; y < image.height; y++)
+        for (int x = 0; x < image.width; x++) sum += static_cast<double>(image.at(x, y, channel));
+    return sum / (image.width * image.height);
+}
+
+// Means of red, green and blue over the image.
+std::vector<Estimate> channel_estimates(const Scene& scene, const RenderRequest& r)
+{
+    std::vector<std::vector<double>> values(3);
+    for (int seed = 1; seed <= replicates; seed++) {
+        const Image image = render(scene, r, static_cast<std::uint64_t>(seed));
+        for (int c = 0; c < 3; c++) values[static_cast<std::size_t>(c)].push_back(channel_mean(image, c));
+    }
+    std::vector<Estimate> estimates;
+    for (const auto& v : values) estimates.push_back(estimate_from(v));
+    return estimates;
+}
+
+// Student's test of each channel, with Bonferroni's correction; bias: relative, of density estimation.
+void expect_same_means(const std::vector<std::vector<Estimate>>& all, const std::vector<std::string>& names, double bias)
+{
+    const double comparisons = static_cast<double>(all.size() * (all.size() - 1) / 2 * 3);
+    const double quantile = student_quantile(replicates - 1, 0.5 * family_error / comparisons);
+    for (std::size_t a = 0; a < all.size(); a++) {
+        for (std::size_t b = a + 1; b < all.size(); b++) {
+            for (std::size_t c = 0; c < 3; c++) {
+                const Estimate &x = all[a][c], &y = all[b][c];
+                const double error = std::hypot(x.standard_error, y.standard_error);
+                EXPECT_NEAR(x.mean, y.mean, quantile * error + bias * std::abs(x.mean)) << names[a] << " and " << names[b] << ", channel " << c;
+                EXPECT_LT(error, 0.05 * std::abs(x.mean)) << names[a] << " and " << names[b] << ", channel " << c; // the test has power
+            }
+        }
+    }
+}
+
+class SpectralMethods : public testing::TestWithParam<std::string> {};
+
+// Light, one coloured surface, camera.
+TEST_P(SpectralMethods, OneBounceIsThatOfRgb)
+{
+    const Scene scene = cornell_box(16);
+    const std::map<std::string, std::string> once{{"max_depth", "2"}, {"rr_depth", "9"}};
+    expect_same_means({channel_estimates(scene, request(GetParam(), 24, false, once)), channel_estimates(scene, request(GetParam(), 24, true, once))},
+                      {"rgb", "spectral"}, 0.0);
+}
+
+// Grey multiplies alike in both, however often, so that white light stays white.
+TEST_P(SpectralMethods, GreyBoxIsThatOfRgbAndWhite)
+{
+    Scene scene = cornell_box(16);
+    for (auto& bsdf : scene.bsdfs) bsdf.model = DiffuseBsdf{{0.7f, 0.7f, 0.7f}};
+    const auto spectral = channel_estimates(scene, request(GetParam(), 24, true));
+    expect_same_means({channel_estimates(scene, request(GetParam(), 24, false)), spectral}, {"rgb", "spectral"}, 0.0);
+    // The tint of the passes' wavelengths, which all pixels share, falls with their number: 24 passes leave about 2%.
+    const auto white = channel_estimates(scene, request(GetParam(), 96, true));
+    for (const Estimate& channel : white) EXPECT_NEAR(channel.mean, white[1].mean, 0.02 * white[1].mean);
+}
+
+TEST_P(SpectralMethods, SameSeedSameBits)
+{
+    const Scene scene = cornell_box(20);
+    const RenderRequest r = request(GetParam(), 3, true);
+    EXPECT_TRUE(render(scene, r, 5).pixels == render(scene, r, 5).pixels);
+    EXPECT_FALSE(render(scene, r, 5).pixels == render(scene, r, 6).pixels);
+}
+
+// A glass ball of strong dispersion and a rough one, in a box.
+Scene dispersive_box(int size)
+{
+    Scene scene = cornell_box(size);
+    const SellmeierFormula sf11 = find_dispersion("sf11").value();
+    const float index = static_cast<float>(index_at(sf11, sodium_d_line));
+    DielectricBsdf glass{index, 1.0f, false, {1, 1, 1}, {1, 1, 1}};
+    glass.dispersion = sf11;
+    DielectricBsdf ground = glass;
+    ground.roughness = Roughness{false, {0.3f}, {0.3f}};
+    scene.shapes.push_back(make_sphere({.45f, -.55f, .3f}, .4f, add_bsdf(scene, glass)));
+    scene.shapes.push_back(make_sphere({-.45f, -.55f, -.2f}, .4f, add_bsdf(scene, ground)));
+    return scene;
+}
+
+TEST_P(SpectralMethods, ResumedIsUninterrupted)
+{
+    const auto file = std::filesystem::temp_directory_path() / ("sundog-spectral-" + GetParam() + "-" + std::to_string(::getpid()));
+    RenderSettings settings;
+    settings.method = GetParam();
+    settings.parameters = request(GetParam(), 0, true).parameters;
+    settings.seed = 7;
+    RenderSession whole(dispersive_box(19), shared_device(), settings);
+    for (int i = 0; i < 2; i++) whole.iterate();
+    whole.save_checkpoint(file);
+    for (int i = 0; i < 3; i++) whole.iterate();
+    RenderSession resumed(dispersive_box(19), shared_device(), settings);
+    resumed.resume(file);
+    for (int i = 0; i < 3; i++) resumed.iterate();
+    std::filesystem::remove(file);
+    EXPECT_TRUE(resumed.image().pixels == whole.image().pixels);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, SpectralMethods, testing::Values("path", "ptracer", "pppm", "sppm"), [](const auto& method) { return method.param; });
+
+// Light tracing cannot see what is behind glass, so the three others are compared. The bias is that of the edges, as in
+// agreement_test.cpp: 2 r 0.21 = 0.8% for r = 0.02.
+TEST(Spectral, MethodsAgreeOnDispersiveGlass)
+{
+    const Scene scene = dispersive_box(16);
+    expect_same_means({channel_estimates(scene, request("path", 192, true)), channel_estimates(scene, request("pppm", 48, true)),
+                       channel_estimates(scene, request("sppm", 48, true))},
+                      {"path", "pppm", "sppm"}, 0.01);
+}
+
+// What the stages do at a dispersive interface: the lobe at a ball, fitted to each hero, sampled until it refracts.
+constexpr const char* refract_kernel = R"(
+    #include "scene/bsdf.h"
+    __kernel void refract_hero(SURFACE_PARAMETERS, Vec3 normal, Vec3 outgoing, __global Vec3* directions, __global Vec3* weights)
+    {
+        const uint hero = get_global_id(0);
+        if (hero >= 3u) return;
+        const SurfaceView scene = SURFACE_VIEW;
+        Surface surface;
+        surface.shape = 0u;
+        surface.shading_normal = surface.geometric_normal = unpack(normal);
+        surface.outgoing = unpack(outgoing);
+        PathState path = {{1.0f, 1.0f, 1.0f}, PDF_DELTA, 1u, 0u, 1.0f, 0u};
+        Scattering scattering = scattering_at(&scene, &surface, 0.5f);
+        disperse(hero, &path, &scattering);
+        BsdfSample sample;
+        bsdf_sample(&scattering, &surface, (float4)(0.5f, 0.5f, 0.99999f, 0.5f), CARRIES_FLUX, &sample);
+        separate_wavelengths(&scattering, sample.direction, &path);
+        directions[hero] = pack(sample.direction);
+        weights[hero] = pack(path.flags & PATH_ONE_WAVELENGTH ? sample.weight : (float3)(-1.0f));
+    })";
+
+class Prism {
+public:
+    explicit Prism(const SellmeierFormula& formula) : device_scene_(shared_device(), scene_of(formula), true)
+    {
+        kernel_ = Kernel::from_source(shared_device(), "refract_hero", "Refract", refract_kernel, device_scene_.surface_options());
+    }
+    void set_wavelengths(const Wavelengths& w) { device_scene_.set_wavelengths(w); }
+
+    // Where light along `direction` goes at the glass's face of outward `normal`, for a hero; checks its weight.
+    Vec3 refract(Vec3 normal, Vec3 direction, std::size_t hero) const
+    {
+        Buffer<Vec3> directions(shared_device(), 3, "directions"), weights(shared_device(), 3, "weights");
+        kernel_(3, device_scene_.surfaces(), normal, -direction, directions, weights);
+        const Vec3 weight = weights.read(hero);
+        for (int k = 0; k < 3; k++) EXPECT_EQ(component(weight, k), static_cast<std::size_t>(k) == hero ? 3.0f : 0.0f);
+        return directions.read(hero);
+    }
+
+private:
+    static Scene scene_of(const SellmeierFormula& formula)
+    {
+        Scene scene = cornell_box(4);
+        DielectricBsdf glass{static_cast<float>(index_at(formula, sodium_d_line)), 1.0f, false, {1, 1, 1}, {1, 1, 1}};
+        glass.dispersion = formula;
+        scene.shapes[0].bsdf = add_bsdf(scene, glass);
+        return scene;
+    }
+
+    DeviceScene device_scene_;
+    Kernel kernel_;
+};
+
+// At minimum deviation D a prism of apex angle A bends light by n sin(A / 2) = sin((A + D) / 2). Off it, here, by Snell's
+// law twice: the beam falls on the first face at 50 degrees.
+TEST(Spectral, PrismDeviatesEachColourByTheSellmeierIndex)
+{
+    constexpr double apex = 0.6, incidence = 0.87;
+    for (const char* name : {"bk7", "sf11", "diamond", "water"}) {
+        const SellmeierFormula formula = find_dispersion(name).value();
+        Prism prism(formula);
+        double last = 10.0;
+        for (std::uint64_t pass = 0; pass < 4; pass++) {
+            const auto wavelengths = pass_wavelengths(3, pass);
+            prism.set_wavelengths(make_wavelengths(wavelengths));
+            last = 10.0;
+            for (std::size_t hero = 0; hero < 3; hero++) {
+                const double n = index_at(formula, wavelengths[hero] * 1e-3);
+                const double inside = std::asin(std::sin(incidence) / n);
+                const double expected = incidence - apex + std::asin(n * std::sin(apex - inside));
+                // Light along +x; the entry face's normal is turned so that it arrives under `incidence`, the exit
+                // face's by pi - apex further.
+                const Vec3 beam{1, 0, 0};
+                const Vec3 entry{static_cast<float>(-std::cos(incidence)), static_cast<float>(std::sin(incidence)), 0};
+                const double exit_angle = M_PI - incidence - (M_PI - apex);
+                const Vec3 exit{static_cast<float>(std::cos(exit_angle)), static_cast<float>(std::sin(exit_angle)), 0};
+                const Vec3 out = prism.refract(exit, prism.refract(entry, beam, hero), hero);
+                const double deviation = std::abs(std::atan2(static_cast<double>(out.y), static_cast<double>(out.x)));
+                EXPECT_NEAR(deviation, expected, 1e-5) << name << " at " << wavelengths[hero] << " nm"; // float's rounding
+                EXPECT_LT(deviation, last) << "longer waves are bent less";
+                last = deviation;
+            }
+        }
+    }
+}
+
+} // namespace
