@@ -16,15 +16,14 @@ PathRules query_rules(const Parameters& parameters)
 
 } // namespace
 
-PhotonPass::PhotonPass(RenderContext& context, const Parameters& parameters, const std::string& estimator, int density_kernel)
+PhotonPass::PhotonPass(RenderContext& context, const Parameters& parameters)
     : context_(context), light_paths_(light_path_count(parameters, context.film.pixel_count())),
       first_radius_(initial_radius(parameters, context.scene.radius(), light_paths_, pixel_footprint(context.camera, context.scene.bounds()))),
       pool_(context.device, context.scene, std::max(light_paths_, context.film.pixel_count())),
       photons_(context.device, context.scene, {light_paths_, path_rules(parameters), parameters.text("direct") == "nee", sampler_kind(parameters)}),
       camera(context.device, context.camera, context.filter, sampler_kind(parameters), context.scene.surface_options()),
       queries(context.device, context.scene, camera.count(), query_rules(parameters), parameters.text("direct") == "nee", sampler_kind(parameters)),
-      map(context.device, context.scene.bounds()), gather(context.device, camera.count(), estimator, density_kernel,
-             context.scene.has_lobes_to_evaluate() ? std::optional(context.scene.surface_options()) : std::nullopt)
+      map(context.device, context.scene.bounds())
 {
 }
 

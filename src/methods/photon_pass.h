@@ -1,4 +1,4 @@
-// One iteration of photon mapping up to the gathered sums: what pppm and sppm have in common.
+// One iteration of photon mapping up to the photon map: what progressive methods have in common.
 #pragma once
 
 #include "methods/method.h"
@@ -13,13 +13,20 @@ namespace sundog {
 // camera paths -> queries; light paths -> photons -> map. Gathering, and what becomes of it, is the method's.
 class PhotonPass {
 public:
-    PhotonPass(RenderContext& context, const Parameters& parameters, const std::string& estimator, int density_kernel);
+    PhotonPass(RenderContext& context, const Parameters& parameters);
 
     // Traces both kinds of paths and builds the map for queries of at most `radius`.
     void trace(std::uint64_t iteration, float radius);
 
+    // What answers the queries, with an estimator (kernels/estimators) and a kernel (1 - t^2)^density_kernel.
+    template <class Result = GatherSum> PhotonGather<Result> make_gather(const std::string& estimator, int density_kernel = 0) const
+    {
+        return {context_.device, camera.count(), estimator, density_kernel,
+                context_.scene.has_lobes_to_evaluate() ? std::optional(context_.scene.surface_options()) : std::nullopt};
+    }
+
     // Sums by query, in `gather.sums`.
-    void gather_photons() { gather.gather(map, queries.queries, queries.lobes, camera.count()); }
+    template <class Result> void gather_photons(PhotonGather<Result>& gather) const { gather.gather(map, queries.queries, queries.lobes, camera.count()); }
 
     float first_radius() const { return first_radius_; }
     std::size_t light_paths() const { return light_paths_; }
@@ -40,7 +47,6 @@ public:
     CameraPaths camera;
     QueryTracer queries;
     PhotonMap map;
-    PhotonGather gather;
 };
 
 } // namespace sundog

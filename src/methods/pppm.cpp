@@ -12,7 +12,8 @@ class ProbabilisticProgressivePhotonMapping final : public Method {
 public:
     ProbabilisticProgressivePhotonMapping(RenderContext& context, const Parameters& parameters)
         : context_(context), alpha_(parameters.real("alpha")),
-          pass_(context, parameters, "estimators/radiance_estimate.h", density_kernel(parameters)), add_gathered_(context.device, "add_gathered", "Add gathered light")
+          pass_(context, parameters), gather_(pass_.make_gather("estimators/radiance_estimate.h", density_kernel(parameters))),
+           add_gathered_(context.device, "add_gathered", "Add gathered light")
     {
     }
 
@@ -20,9 +21,9 @@ public:
     {
         const float radius = static_cast<float>(scheduled_radius(pass_.first_radius(), alpha_, 2, iteration));
         pass_.trace(iteration, radius);
-        pass_.gather_photons();
+        pass_.gather_photons(gather_);
         const float inverse_paths = 1.0f / static_cast<float>(pass_.light_paths());
-        add_gathered_(pass_.pixels(), pass_.queries.queries, pass_.gather.sums, static_cast<uint>(pass_.pixels()), inverse_paths, pass_.camera.radiance);
+        add_gathered_(pass_.pixels(), pass_.queries.queries, gather_.sums, static_cast<uint>(pass_.pixels()), inverse_paths, pass_.camera.radiance);
         context_.spectral.to_rgb(pass_.camera.radiance);
         context_.film.accumulate(pass_.camera.radiance);
     }
@@ -35,6 +36,7 @@ private:
     RenderContext& context_;
     double alpha_;
     PhotonPass pass_;
+    PhotonGather<> gather_;
     Kernel add_gathered_;
 };
 

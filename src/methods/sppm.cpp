@@ -13,8 +13,9 @@ namespace {
 class StochasticProgressivePhotonMapping final : public Method {
 public:
     StochasticProgressivePhotonMapping(RenderContext& context, const Parameters& parameters)
-        : context_(context), alpha_(static_cast<float>(parameters.real("alpha"))), pass_(context, parameters, "estimators/flux_sum.h", 0),
-          set_query_radii_(context.device, "set_query_radii", "Set query radii"),
+        : context_(context), alpha_(static_cast<float>(parameters.real("alpha"))), pass_(context, parameters),
+          gather_(pass_.make_gather("estimators/flux_sum.h")),
+          set_query_radii_(context.device, "set_query_radii", "Set query radii", BuildOptions{{{"PIXEL_STATISTICS", "ProgressivePixel"}}, {}}),
           update_progressive_pixels_(context.device, "update_progressive_pixels", "Update progressive pixels"),
           pixels_(context.device, std::vector<ProgressivePixel>(pass_.pixels(), first_statistics()), "progressive pixels")
     {
@@ -25,11 +26,11 @@ public:
         const uint count = static_cast<uint>(pass_.pixels());
         pass_.trace(iteration, pass_.first_radius());
         set_query_radii_(count, pixels_, count, pass_.queries.queries);
-        pass_.gather_photons();
+        pass_.gather_photons(gather_);
         context_.spectral.to_rgb(pass_.camera.radiance);
-        context_.spectral.to_rgb(pass_.queries.queries, pass_.gather.sums);
+        context_.spectral.to_rgb(pass_.queries.queries, gather_.sums);
         const float inverse_paths = 1.0f / static_cast<float>(pass_.light_paths());
-        update_progressive_pixels_(count, pass_.queries.queries, pass_.gather.sums, count, alpha_, inverse_paths, pixels_, pass_.camera.radiance);
+        update_progressive_pixels_(count, pass_.queries.queries, gather_.sums, count, alpha_, inverse_paths, pixels_, pass_.camera.radiance);
         context_.film.accumulate(pass_.camera.radiance);
     }
 
@@ -71,6 +72,7 @@ private:
     RenderContext& context_;
     float alpha_;
     PhotonPass pass_;
+    PhotonGather<> gather_;
     Kernel set_query_radii_;
     Kernel update_progressive_pixels_;
     Buffer<ProgressivePixel> pixels_;

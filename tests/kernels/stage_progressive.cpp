@@ -145,7 +145,7 @@ TEST_F(ProgressiveStage, QueriesTakeTheirPixelsRadius)
         queries[i].radius = i % 5 == 0 ? 0.0f : 7.0f;
     }
     const auto device_queries = upload(queries);
-    Kernel(device_, "set_query_radii", "Set radii")(100, upload(pixels), 100u, device_queries);
+    Kernel(device_, "set_query_radii", "Set radii", BuildOptions{{{"PIXEL_STATISTICS", "ProgressivePixel"}}, {}})(100, upload(pixels), 100u, device_queries);
     const auto got = device_queries.download();
     for (uint i = 0; i < 100; ++i)
         EXPECT_FLOAT_EQ(got[i].radius, i % 5 == 0 ? 0.0f : std::sqrt(pixels[i].radius_squared)) << i;
