@@ -29,7 +29,7 @@ class ChiSquaredProgressivePhotonMapping final : public Method
 public:
     ChiSquaredProgressivePhotonMapping(RenderContext& context, const Parameters& parameters)
         : context_(context), shrink_(static_cast<float>(parameters.real("shrink"))), pass_(context, parameters),
-          gather_(pass_.make_gather<BinnedSum>("estimators/binned_flux.h")),
+          gather_(make_gather<BinnedSum>(context, "estimators/binned_flux.h")),
           set_query_radii_(context.device, "set_query_radii", "Set query radii", BuildOptions{{{"PIXEL_STATISTICS", "TestedPixel"}}, {}}),
           test_photon_bins_(context.device, "test_photon_bins", "Test photon bins"),
           thresholds_(context.device, test_thresholds(parameters.real("significance")), "test thresholds"),
