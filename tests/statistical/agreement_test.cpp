@@ -87,7 +87,7 @@ TEST(Agreement, GlassAndMirrorSpheres)
     const uint mirror = add_bsdf(scene, ConductorBsdf{});
     scene.shapes.push_back(make_sphere({.45f, -.6f, .3f}, .4f, glass));
     scene.shapes.push_back(make_sphere({-.45f, -.6f, -.3f}, .4f, mirror));
-    expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24), request("cppm", 24), request("ppm", 24)}, edge_bias);
+    expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24), request("cppm", 24), request("ppm", 24), request("appm", 24)}, edge_bias);
 }
 
 // Broad reflections are asked for photons; narrow ones are followed, and asked only for what no followed path finds.
