@@ -122,7 +122,7 @@ Scene moving_box()
 
 TEST(Agreement, MovingGlassMirrorAndCamera)
 {
-    expect_agreement(moving_box(), {request("path", 256), request("pppm", 32), request("sppm", 32)}, edge_bias);
+    expect_agreement(moving_box(), {request("path", 96), request("pppm", 12), request("sppm", 12)}, edge_bias);
 }
 
 // Where light tracing sees all: the camera looks past the ball and the mirror at their caustics, and at a turning block.
@@ -137,7 +137,7 @@ TEST(Agreement, MovingCausticsAndCamera)
     scene.instances[1].to_world = between(Transform::translate({-.6, -.6, -.6}), Transform::translate({-.6, -.4, -.6}) * Transform::rotate({1, 2, 0}, 150));
     add_moving(scene, make_quad({-.2f, 0, 0}, {.2f, 0, 0}, {.2f, .3f, 0}, {-.2f, .3f, 0}, 1),
                between(Transform::translate({-.2, -.9, .1}), Transform::translate({.2, -.8, .1}) * Transform::rotate({0, 1, 0}, 60)));
-    expect_agreement(scene, {request("path", 256), request("ptracer", 32), request("pppm", 32), request("sppm", 32)}, edge_bias);
+    expect_agreement(scene, {request("path", 96), request("ptracer", 12), request("pppm", 12), request("sppm", 12)}, edge_bias);
 }
 
 // Broad reflections are asked for photons; narrow ones are followed, and asked only for what no followed path finds.

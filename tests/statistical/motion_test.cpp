@@ -119,7 +119,7 @@ TEST(Motion, ExposureInAMovingMirror)
     wall.emitter = AreaEmitter{{1, 1, 1}};
     scene.shapes.push_back(wall);
     scene.sensor.position.y = 8;
-    for (const char* method : {"path", "sppm", "pppm"}) {
+    for (const char* method : {"path", "sppm"}) {
         SCOPED_TRACE(method);
         const Image image = render(scene, {method, passes, {}}, 3);
         constexpr double width = 2.0 / size;
@@ -179,7 +179,8 @@ TEST(Motion, APassIsAStillForEveryMethod)
     }
 }
 
-// Pass i of a still is i + 1 times its mean over i + 1 passes, less i times that over i. All channels.
+// Pass i of a still is i + 1 times its mean over i + 1 passes, less i times that over i: true of all channels but the
+// variances, 3 to 5.
 TEST(Motion, TheMeanOverPassesIsThatOfStills)
 {
     const Scene scene = moving_box();
@@ -196,7 +197,9 @@ TEST(Motion, TheMeanOverPassesIsThatOfStills)
                 mean[k] += (static_cast<double>(i + 1) * with.pixels[k] - static_cast<double>(i) * without.pixels[k]) / count;
         }
         std::size_t different = 0;
-        for (std::size_t k = 0; k < mean.size(); k++) different += std::abs(mean[k] - moving.pixels[k]) > 2e-6 * (1 + std::abs(mean[k]));
+        for (std::size_t k = 0; k < mean.size(); k++)
+            if (const std::size_t channel = k % moving.channels.size(); channel < 3 || channel > 5)
+                different += std::abs(mean[k] - moving.pixels[k]) > 2e-6 * (1 + std::abs(mean[k]));
         EXPECT_EQ(different, 0u);
     }
 }
