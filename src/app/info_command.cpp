@@ -56,7 +56,8 @@ std::string motion_text(const SceneSummary& summary)
 {
     if (!summary.camera_moves && summary.moving_instances == 0) return "";
     std::string text = summary.camera_moves ? "camera" : "";
-    if (summary.moving_instances > 0) text += fmt::format("{}{} of {} instances", text.empty() ? "" : ", ", summary.moving_instances, summary.instances);
+    if (summary.moving_instances > 0)
+        text += fmt::format("{}{} of {} instances", text.empty() ? "" : ", ", summary.moving_instances, summary.instances);
     return text + fmt::format("; shutter {:g} to {:g}", summary.shutter.open, summary.shutter.close);
 }
 

@@ -78,8 +78,10 @@ void InstanceImporter::import_member(const NestedObject& member, uint group)
         throw SceneError(member.where, "a shapegroup cannot hold a shapegroup or an instance: put their shapes into it themselves");
     if (const auto emitter = ObjectReader(*member.object, index_).single("emitter"))
         throw SceneError(emitter->where, "a light cannot be inside a shapegroup: give each copy that emits a shape of its own");
-    if (ObjectReader reader(*member.object, index_); reader.animation("to_world").moves(scene_.sensor.shutter.open, scene_.sensor.shutter.close))
-        throw SceneError(reader.where_of("to_world"), "a shape inside a shapegroup cannot move by itself: give the <animation> to its instances");
+    if (ObjectReader reader(*member.object, index_);
+        reader.animation("to_world").moves(scene_.sensor.shutter.open, scene_.sensor.shutter.close))
+        throw SceneError(reader.where_of("to_world"),
+                         "a shape inside a shapegroup cannot move by itself: give the <animation> to its instances");
     const std::size_t first = scene_.shapes.size();
     import_shape(*member.object, index_, bsdfs_, textures_, scene_);
     for (std::size_t i = first; i < scene_.shapes.size(); i++) scene_.shapes[i].group = group;

@@ -70,8 +70,8 @@ void read_shutter(ObjectReader& reader, Sensor& sensor)
     const auto [open, close] = sensor.shutter;
     if (open <= close) return;
     throw SceneError(reader.where_of(reader.has("shutter_close") ? "shutter_close" : "shutter_open"),
-                     "the shutter closes (shutter_close, " + number_text(close) + ", default 0) before it opens (shutter_open, " + number_text(open) +
-                         "): exchange the two, or give both the same time for a still");
+                     "the shutter closes (shutter_close, " + number_text(close) + ", default 0) before it opens (shutter_open, " +
+                         number_text(open) + "): exchange the two, or give both the same time for a still");
 }
 
 Transform read_key(const Transform& to_world, const SourceLocation& where)
@@ -143,7 +143,8 @@ void read_orthographic(ObjectReader& reader, const SceneIndex& index, Sensor& se
     for (const TransformKey& key : keys) {
         const Vec3 ratio = orthogonal_scale(key.transform, where) * Vec3{1 / scale.x, 1 / scale.y, 1 / scale.z} - Vec3{1, 1, 1};
         if (std::max({std::abs(ratio.x), std::abs(ratio.y), std::abs(ratio.z)}) > 1e-3f)
-            throw SceneError(where, "the film of an orthographic sensor cannot grow or shrink while it moves: give all keys the same scale");
+            throw SceneError(where,
+                             "the film of an orthographic sensor cannot grow or shrink while it moves: give all keys the same scale");
     }
     read_pose(to_world, where, sensor);
     sensor.extent_x = scale.x;

@@ -147,8 +147,9 @@ private:
         const AnimatedTransform to_world = read_to_world(reader_, scene_.sensor.shutter);
         if (to_world.is_constant()) return reader_.place(to_world.at(0.0));
         if (emitter)
-            throw SceneError(emitter->where, "a shape that moves cannot emit light: let the light stand still, by a <transform> in place of "
-                                             "the <animation>");
+            throw SceneError(emitter->where,
+                             "a shape that moves cannot emit light: let the light stand still, by a <transform> in place of "
+                             "the <animation>");
         reader_.place(Transform());
         common_.group = static_cast<uint>(scene_.groups.size());
         scene_.groups.push_back({common_.id, common_.where});

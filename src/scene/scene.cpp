@@ -88,7 +88,8 @@ Bounds Scene::bounds() const
     for (const auto& instance : instances) {
         const Bounds& group = of_group[instance.group];
         const auto [open, close] = sensor.shutter;
-        all.extend(instance.to_world.moves(open, close) ? instance.to_world.box(group, open, close) : instance.to_world.at(open).box(group));
+        all.extend(instance.to_world.moves(open, close) ? instance.to_world.box(group, open, close)
+                                                        : instance.to_world.at(open).box(group));
     }
     return all;
 }

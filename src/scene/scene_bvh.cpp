@@ -137,7 +137,8 @@ Bvh build_scene_bvh(const FlatScene& flat)
         instance.center = group.bounds.center();
         instance.radius = group.bounds.radius();
         const std::vector<Bounds>& boxes = group_boxes[flat.instance_groups[i]];
-        const Bounds box = motions[i] ? box_of(*motions[i], flat.shutter, boxes, flat.globals.radius) : box_of(instance, boxes, flat.globals.radius);
+        const Bounds box =
+            motions[i] ? box_of(*motions[i], flat.shutter, boxes, flat.globals.radius) : box_of(instance, boxes, flat.globals.radius);
         check_range(box, i);
         bvh.bounds.extend(box);
         seen.push_back({box, static_cast<uint>(i)});

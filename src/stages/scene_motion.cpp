@@ -2,7 +2,8 @@
 
 #include "scene/sensor_pose.h"
 
-namespace sundog {
+namespace sundog
+{
 
 void SceneMotion::begin_pass(std::uint64_t pass)
 {

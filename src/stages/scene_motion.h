@@ -3,10 +3,12 @@
 
 #include "stages/device_scene.h"
 
-namespace sundog {
+namespace sundog
+{
 
 // Gives each pass one time, at which its camera rays and its light paths are traced alike. Does nothing where nothing moves.
-class SceneMotion {
+class SceneMotion
+{
 public:
     // Keeps references to all three; camera: of the scene's sensor and film.
     SceneMotion(DeviceScene& device_scene, const Scene& scene, Camera& camera, std::uint64_t seed)

@@ -76,9 +76,11 @@ TEST_F(CliInfo, a_dump_does_not_overwrite_the_scene)
 SmallScene moving_scene(const std::string& shutter_close)
 {
     SmallScene scene;
-    scene.sensor_start = "<sensor type=\"perspective\"><float name=\"shutter_close\" value=\"" + shutter_close + R"("/><animation name="to_world">
+    scene.sensor_start =
+        "<sensor type=\"perspective\"><float name=\"shutter_close\" value=\"" + shutter_close + R"("/><animation name="to_world">
 <transform time="0"><lookat origin="0, 0, 4" target="0, 0, 0"/></transform><transform time="1"><lookat origin="1, .3, 4" target=".1, 0, 0"/></transform></animation>)";
-    scene.shape += R"(<shape type="sphere"><float name="radius" value=".37"/><animation name="to_world"><transform time="0"><translate x="-.5"/></transform>
+    scene.shape +=
+        R"(<shape type="sphere"><float name="radius" value=".37"/><animation name="to_world"><transform time="0"><translate x="-.5"/></transform>
 <transform time="0.7"><rotate y="1" angle="30"/><translate x=".5"/></transform></animation></shape>)";
     return scene;
 }

@@ -111,7 +111,8 @@ Scene moving_box()
     const uint glass = add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}});
     const uint mirror = add_bsdf(scene, ConductorBsdf{});
     const uint both_sides = add_bsdf(scene, TwoSidedBsdf{mirror, mirror});
-    add_moving(scene, make_sphere({0, 0, 0}, 0.35f, glass), between(Transform::translate({-.5, -.5, .3}), Transform::translate({.5, -.3, .3})));
+    add_moving(scene, make_sphere({0, 0, 0}, 0.35f, glass),
+               between(Transform::translate({-.5, -.5, .3}), Transform::translate({.5, -.3, .3})));
     add_moving(scene, make_quad({-.3f, -.3f, 0}, {.3f, -.3f, 0}, {.3f, .3f, 0}, {-.3f, .3f, 0}, both_sides),
                between(Transform::translate({.3, .2, -.4}), Transform::translate({-.3, .3, -.4}) * Transform::rotate({1, 2, 0}, 150)));
     scene.sensor.shutter = {0, 1};
@@ -134,7 +135,8 @@ TEST(Agreement, MovingCausticsAndCamera)
     set_pose(to_floor, scene.sensor);
     scene.sensor.fov_x = 0.4f;
     scene.instances[0].to_world = between(Transform::translate({-.7, .3, -.5}), Transform::translate({.7, .3, -.4}));
-    scene.instances[1].to_world = between(Transform::translate({-.6, -.6, -.6}), Transform::translate({-.6, -.4, -.6}) * Transform::rotate({1, 2, 0}, 150));
+    scene.instances[1].to_world =
+        between(Transform::translate({-.6, -.6, -.6}), Transform::translate({-.6, -.4, -.6}) * Transform::rotate({1, 2, 0}, 150));
     add_moving(scene, make_quad({-.2f, 0, 0}, {.2f, 0, 0}, {.2f, .3f, 0}, {-.2f, .3f, 0}, 1),
                between(Transform::translate({-.2, -.9, .1}), Transform::translate({.2, -.8, .1}) * Transform::rotate({0, 1, 0}, 60)));
     expect_agreement(scene, {request("path", 96), request("ptracer", 12), request("pppm", 12), request("sppm", 12)}, edge_bias);

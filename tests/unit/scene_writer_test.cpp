@@ -349,9 +349,10 @@ TEST(SceneWriter, Motion)
 {
     const std::string shutter = R"(<float name="shutter_open" value=".1"/><float name="shutter_close" value="1.7"/>)";
     const auto keys = [](const std::string& scale) {
-        return "<animation name=\"to_world\"><transform time=\".3\"><scale " + scale + "/><rotate x=\"1\" y=\".3\" angle=\"41\"/></transform>" +
-               "<transform time=\"1.123456789\"><scale " + scale + "/><rotate z=\"1\" y=\".7\" angle=\"55\"/><translate x=\".7\"/></transform>" +
-               "<transform time=\"9\"><scale " + scale + "/><translate x=\".1\"/></transform></animation>";
+        return "<animation name=\"to_world\"><transform time=\".3\"><scale " + scale +
+               "/><rotate x=\"1\" y=\".3\" angle=\"41\"/></transform>" + "<transform time=\"1.123456789\"><scale " + scale +
+               "/><rotate z=\"1\" y=\".7\" angle=\"55\"/><translate x=\".7\"/></transform>" + "<transform time=\"9\"><scale " + scale +
+               "/><translate x=\".1\"/></transform></animation>";
     };
     const SceneFolder folder;
     folder.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 .1\nv 1 1.3 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n");
