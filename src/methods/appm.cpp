@@ -8,6 +8,7 @@
 #include "shared/adaptive_radius.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace sundog
 {
@@ -17,18 +18,18 @@ namespace
 // Radii lie between a twentieth of the global schedule's and the schedule's own.
 constexpr double smallest_share = 0.05;
 // Laplacians need wider disks: at twice the largest radius their noise does not keep radii below it where light is even.
-constexpr double laplacian_radius = 2.0;
+constexpr double wide_disk = 2.0;
 
 class AdaptiveProgressivePhotonMapping final : public Method
 {
 public:
     AdaptiveProgressivePhotonMapping(RenderContext& context, const Parameters& parameters)
         : context_(context), kernel_(density_kernel(parameters)), pass_(context, parameters),
-          gather_(make_gather<MomentSum>(context, "estimators/moment_estimate.h", kernel_)),
-          gather_laplacian_(make_gather(context, "estimators/laplacian_estimate.h")),
+          gather_(make_gather(context, "estimators/radiance_estimate.h", kernel_)),
+          gather_errors_(make_gather<ErrorSum>(context, "estimators/error_estimate.h")),
           set_query_radii_(context.device, "set_query_radii", "Set query radii", BuildOptions{{{"PIXEL_STATISTICS", "AdaptivePixel"}}, {}}),
-          learn_radii_(context.device, "learn_radii", "Learn radii"),
-          pixels_(context.device, std::vector<AdaptivePixel>(pass_.pixels(), {pass_.first_radius() * pass_.first_radius(), 0, 0, 0}),
+          add_gathered_(context.device, "add_gathered", "Add gathered light"), learn_radii_(context.device, "learn_radii", "Learn radii"),
+          pixels_(context.device, std::vector<AdaptivePixel>(pass_.pixels(), {pass_.first_radius() * pass_.first_radius(), 0, 0, 0, 0}),
                   "adaptive pixels")
     {
     }
@@ -37,17 +38,16 @@ public:
     {
         const uint count = static_cast<uint>(pass_.pixels());
         const double done = static_cast<double>(iteration + 1);
-        pass_.trace(iteration, static_cast<float>(laplacian_radius * pass_.first_radius() * std::pow(done, -0.1)));
-        pass_.gather_photons(gather_laplacian_);
+        pass_.trace(iteration, static_cast<float>(wide_disk * pass_.first_radius() * std::pow(done, -0.1)));
+        pass_.gather_photons(gather_errors_);
+
         set_query_radii_(count, pixels_, count, pass_.queries.queries);
         pass_.gather_photons(gather_);
-
-        const double largest = pass_.first_radius() * std::pow(done + 1.0, -1.0 / 6);
-        const AdaptiveSchedule schedule{static_cast<float>(done), static_cast<float>(pass_.light_paths()),
-                                        0.5f / static_cast<float>(kernel_ + 2), static_cast<float>(largest),
-                                        static_cast<float>(largest * smallest_share)};
-        learn_radii_(count, pass_.queries.queries, gather_.sums, gather_laplacian_.sums, schedule, count, pixels_, pass_.camera.radiance);
+        add_gathered_(count, pass_.queries.queries, gather_.sums, count, 1.0f / static_cast<float>(pass_.light_paths()),
+                      pass_.camera.radiance);
         context_.film.accumulate(pass_.camera.radiance);
+
+        learn_radii_(count, pass_.queries.queries, gather_errors_.sums, schedule(done), count, pixels_);
     }
 
     MethodCounters counters() const override { return pass_.counters(); }
@@ -59,12 +59,22 @@ public:
     }
 
 private:
+    AdaptiveSchedule schedule(double iterations_done) const
+    {
+        const double n = kernel_; // of (1 - t^2)^n
+        const double largest = pass_.first_radius() * std::pow(iterations_done + 1.0, -1.0 / 6);
+        return {static_cast<float>(iterations_done), static_cast<float>(pass_.light_paths()),
+                static_cast<float>(0.5 / (n + 2.0)), static_cast<float>((n + 1.0) * (n + 1.0) / (std::numbers::pi * (2.0 * n + 1.0))),
+                static_cast<float>(largest),         static_cast<float>(smallest_share * largest)};
+    }
+
     RenderContext& context_;
     int kernel_;
     PhotonPass pass_;
-    PhotonGather<MomentSum> gather_;
-    PhotonGather<> gather_laplacian_;
+    PhotonGather<> gather_;
+    PhotonGather<ErrorSum> gather_errors_;
     Kernel set_query_radii_;
+    Kernel add_gathered_;
     Kernel learn_radii_;
     Buffer<AdaptivePixel> pixels_;
 };

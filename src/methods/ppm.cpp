@@ -110,6 +110,7 @@ const MethodRegistration registration({
                                  256,
                                  {}},
                    max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), iterations_spec()},
+    .follows_motion = false,
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<ProgressivePhotonMapping>(context, parameters);
     },
