@@ -3,17 +3,20 @@
 #ifndef SUNDOG_ESTIMATOR_H
 #define SUNDOG_ESTIMATOR_H
 #include "density/kernels.h"
+#include "math/simd8.h"
 #include "math/sum8.h"
 #include "shared/photon.h"
+
+#define ESTIMATOR_RESULT GatherSum
 
 typedef struct Estimate {
     float8 red, green, blue;
 } Estimate;
 
-static inline void estimator_begin(Estimate* estimate) { estimate->red = estimate->green = estimate->blue = (float8)(0.0f); }
+static inline void estimator_begin(Estimate* estimate, const GatherQuery* query) { estimate->red = estimate->green = estimate->blue = (float8)(0.0f); }
 
 // Eight photons at squared distances t_squared * radius^2; those not in `mask` (all bits set) count nothing.
-static inline void estimator_add(Estimate* estimate, int8 mask, float8 t_squared, float8 red, float8 green, float8 blue)
+static inline void estimator_add(Estimate* estimate, int8 mask, Offset8 offset, float8 t_squared, float8 red, float8 green, float8 blue)
 {
     // The products are masked, not the weight: a lane beyond the map may hold anything, and 0 * NaN is no 0.
     const float8 weight = kernel_shape(t_squared);
@@ -23,10 +26,10 @@ static inline void estimator_add(Estimate* estimate, int8 mask, float8 t_squared
 }
 
 // Irradiance (W/m^2, times emitted paths).
-static inline GatherSum estimator_end(const Estimate* estimate, float radius)
+static inline ESTIMATOR_RESULT estimator_end(const Estimate* estimate, float radius)
 {
     const float scale = KERNEL_NORM / (radius * radius);
-    const GatherSum sum = {{sum8(estimate->red) * scale, sum8(estimate->green) * scale, sum8(estimate->blue) * scale}, 0.0f};
+    const ESTIMATOR_RESULT sum = {{sum8(estimate->red) * scale, sum8(estimate->green) * scale, sum8(estimate->blue) * scale}, 0.0f};
     return sum;
 }
 

@@ -3,6 +3,11 @@
 #ifndef SUNDOG_SIMD8_H
 #define SUNDOG_SIMD8_H
 
+// Eight vectors.
+typedef struct Offset8 {
+    float8 x, y, z;
+} Offset8;
+
 // Lane-wise minimum and maximum; with a NaN, the second operand. Unlike fmin
 // and fmax these are one instruction on a CPU.
 static inline float8 min8(float8 a, float8 b)

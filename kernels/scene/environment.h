@@ -2,10 +2,10 @@
 #ifndef SUNDOG_SCENE_ENVIRONMENT_H
 #define SUNDOG_SCENE_ENVIRONMENT_H
 #include "math/frame.h"
+#include "math/luminance.h"
 #include "math/warp.h"
 #include "scene/scene_view.h"
 
-#define ENVIRONMENT_LUMINANCE ((float3)(0.2126f, 0.7152f, 0.0722f)) // of linear sRGB, ITU-R BT.709
 #define LEAST_SINE 1e-6f // at a pole the density has no bound, the radiance over it goes to zero
 
 // Radiance from a direction, and the density (1/sr) with which sample_environment_map draws it.
@@ -26,7 +26,7 @@ static inline EnvironmentValue environment_patch(const SurfaceView* scene, const
     const uint x1 = x + 1u < map->width ? x + 1u : 0u, y1 = min(y + 1u, map->height - 1u);
     const float3 a = read_environment_texel(scene, map, x, y), b = read_environment_texel(scene, map, x1, y);
     const float3 c = read_environment_texel(scene, map, x, y1), d = read_environment_texel(scene, map, x1, y1);
-    const float weight = dot(a + b + c + d, ENVIRONMENT_LUMINANCE) * (0.25f * sin(PI_F * ((float)y + 0.5f) / (float)map->rows));
+    const float weight = dot(a + b + c + d, LUMINANCE_WEIGHTS) * (0.25f * sin(PI_F * ((float)y + 0.5f) / (float)map->rows));
     EnvironmentValue value;
     value.radiance = mix(mix(a, b, t.x), mix(c, d, t.x), t.y);
     value.pdf_w = map->pdf_scale * weight / fmax(sine, LEAST_SINE);

@@ -1,9 +1,8 @@
 // What a texture says at a surface.
 #ifndef SUNDOG_SCENE_TEXTURE_H
 #define SUNDOG_SCENE_TEXTURE_H
+#include "math/luminance.h"
 #include "scene/surface.h"
-
-#define LUMINANCE_WEIGHTS ((float3)(0.2126f, 0.7152f, 0.0722f)) // of linear sRGB, ITU-R BT.709
 
 // Value in [0, 1] of a display encoding, made linear (IEC 61966-2-1).
 static inline float srgb_decode(float encoded)

@@ -1,5 +1,5 @@
 // Adds gathered photons to radiance: throughput * sum / emitted paths. Reads queries and sums; updates
-// radiance. One work-item a query. Used by pppm.
+// radiance. One work-item a query. Used by pppm and appm.
 #include "math/vec3.h"
 #include "shared/photon.h"
 

@@ -75,10 +75,9 @@ static inline Estimate gather_run(PhotonRun run, const GatherQuery* query, const
     const float3 position = unpack(query->position);
     const float inverse_radius_squared = 1.0f / (query->radius * query->radius);
     for (uint i = run.begin; i < run.end; i += 8u) {
-        const float8 dx = load_stream(streams, PHOTON_X, stride, i) - position.x;
-        const float8 dy = load_stream(streams, PHOTON_Y, stride, i) - position.y;
-        const float8 dz = load_stream(streams, PHOTON_Z, stride, i) - position.z;
-        const float8 t_squared = (dx * dx + dy * dy + dz * dz) * inverse_radius_squared;
+        const Offset8 offset = {load_stream(streams, PHOTON_X, stride, i) - position.x, load_stream(streams, PHOTON_Y, stride, i) - position.y,
+                                load_stream(streams, PHOTON_Z, stride, i) - position.z};
+        const float8 t_squared = (offset.x * offset.x + offset.y * offset.y + offset.z * offset.z) * inverse_radius_squared;
         int8 mask = (t_squared < 1.0f) & (lane < (int8)((int)(run.end - i)));
         if (!mask8(mask)) continue;
         const uint8 normal_depth = as_uint8(load_stream(streams, PHOTON_NORMAL_DEPTH, stride, i));
@@ -88,25 +87,25 @@ static inline Estimate gather_run(PhotonRun run, const GatherQuery* query, const
         if (query->flags & QUERY_EVALUATES_LOBE)
             flux = scattered_flux(flux, as_uint8(load_stream(streams, PHOTON_DIRECTION, stride, i)), mask, lobe);
 #endif
-        estimator_add(&estimate, mask, t_squared, flux.red, flux.green, flux.blue);
+        estimator_add(&estimate, mask, offset, t_squared, flux.red, flux.green, flux.blue);
     }
     return estimate;
 }
 
 __kernel void gather_photons(PhotonGrid grid, __global const uint* restrict cell_ends, uint cell_ends_offset, __global const float* restrict streams,
-                             __global const GatherQuery* restrict queries, __global const LobeRecord* restrict query_lobes, uint count, __global GatherSum* restrict sums)
+                             __global const GatherQuery* restrict queries, __global const LobeRecord* restrict query_lobes, uint count, __global ESTIMATOR_RESULT* restrict sums)
 {
     const uint index = get_global_id(0);
     if (index >= count) return;
     const GatherQuery query = queries[index];
-    GatherSum sum = {{0.0f, 0.0f, 0.0f}, 0.0f};
+    ESTIMATOR_RESULT sum = {{0.0f}};
     if (query.radius > 0.0f) {
         PhotonRun runs[8];
         const uint run_count = find_photon_runs(&grid, cell_ends + cell_ends_offset, unpack(query.position), runs);
         LobeRecord lobe;
         if (GATHERS_LOBES && (query.flags & QUERY_EVALUATES_LOBE)) lobe = query_lobes[index];
         Estimate estimate;
-        estimator_begin(&estimate);
+        estimator_begin(&estimate, &query);
         for (uint i = 0u; i < run_count; ++i) estimate = gather_run(runs[i], &query, &lobe, streams, grid.stride, estimate);
         sum = estimator_end(&estimate, query.radius);
     }

@@ -1,23 +1,24 @@
 // Progressive statistics of each pixel: shrinks the radius by the photons found and rescales the flux
-// [Hachisuka and Jensen 2009, eqs. 7 to 9]. Reads queries, sums and the radiance that is not from photons;
-// updates pixels and adds this iteration's own photon estimate to radiance. One work-item a pixel. Used by sppm.
+// [Hachisuka and Jensen 2009, eqs. 7 to 9]. Reads queries, sums and `direct`, the radiance that is not from photons;
+// updates pixels and adds this iteration's own photon estimate to radiance, which may be `direct`. One work-item a
+// pixel. Used by ppm and sppm.
 #include "math/compensated.h"
 #include "shared/film.h"
 #include "shared/photon.h"
 
 #define PI 3.14159265358979f
 
-__kernel void update_progressive_pixels(__global const GatherQuery* restrict queries, __global const GatherSum* restrict sums, uint count, float alpha,
-                                        float inverse_paths, __global ProgressivePixel* restrict pixels, __global Vec3* restrict radiance)
+__kernel void update_progressive_pixels(__global const GatherQuery* restrict queries, __global const GatherSum* restrict sums, __global const Vec3* direct, uint count,
+                                        float alpha, float inverse_paths, __global ProgressivePixel* restrict pixels, __global Vec3* radiance)
 {
     const uint index = get_global_id(0);
     if (index >= count) return;
     ProgressivePixel pixel = pixels[index];
-    const float3 direct = unpack(radiance[index]);
+    const float3 other = unpack(direct[index]);
     const float found = sums[index].count;
-    if (is_finite3(direct)) add_compensated3(&pixel.direct, &pixel.direct_error, direct);
+    if (is_finite3(other)) add_compensated3(&pixel.direct, &pixel.direct_error, other);
     const float3 flux = unpack(queries[index].throughput) * unpack(sums[index].flux); // beta Psi
-    if (queries[index].radius > 0.0f && found > 0.0f) radiance[index] = pack(direct + flux * (inverse_paths / (PI * pixel.radius_squared)));
+    if (queries[index].radius > 0.0f && found > 0.0f) radiance[index] = pack(unpack(radiance[index]) + flux * (inverse_paths / (PI * pixel.radius_squared)));
     // What is not finite stays out of the statistics; the film counts it.
     if (queries[index].radius > 0.0f && found > 0.0f && is_finite3(flux)) {
         const float before = pixel.count + pixel.count_error;

@@ -50,6 +50,7 @@ struct MethodInfo {
     std::string estimator_class; // "unbiased", "consistent" or "biased"
     std::string description; // a few sentences: idea, when to use it
     std::vector<ParameterSpec> parameters;
+    bool follows_motion = true; // false: what the camera sees is found once, so nothing may move
     std::unique_ptr<Method> (*create)(RenderContext&, const Parameters&) = nullptr;
 };
 

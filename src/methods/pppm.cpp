@@ -5,14 +5,18 @@
 
 #include <cmath>
 
-namespace sundog {
-namespace {
+namespace sundog
+{
+namespace
+{
 
-class ProbabilisticProgressivePhotonMapping final : public Method {
+class ProbabilisticProgressivePhotonMapping final : public Method
+{
 public:
     ProbabilisticProgressivePhotonMapping(RenderContext& context, const Parameters& parameters)
-        : context_(context), alpha_(parameters.real("alpha")),
-          pass_(context, parameters, "estimators/radiance_estimate.h", density_kernel(parameters)), add_gathered_(context.device, "add_gathered", "Add gathered light")
+        : context_(context), alpha_(parameters.real("alpha")), pass_(context, parameters),
+          gather_(make_gather(context, "estimators/radiance_estimate.h", density_kernel(parameters))),
+          add_gathered_(context.device, "add_gathered", "Add gathered light")
     {
     }
 
@@ -20,9 +24,10 @@ public:
     {
         const float radius = static_cast<float>(scheduled_radius(pass_.first_radius(), alpha_, 2, iteration));
         pass_.trace(iteration, radius);
-        pass_.gather_photons();
+        pass_.gather_photons(gather_);
         const float inverse_paths = 1.0f / static_cast<float>(pass_.light_paths());
-        add_gathered_(pass_.pixels(), pass_.queries.queries, pass_.gather.sums, static_cast<uint>(pass_.pixels()), inverse_paths, pass_.camera.radiance);
+        add_gathered_(pass_.pixels(), pass_.queries.queries, gather_.sums, static_cast<uint>(pass_.pixels()), inverse_paths,
+                      pass_.camera.radiance);
         context_.spectral.to_rgb(pass_.camera.radiance);
         context_.film.accumulate(pass_.camera.radiance);
     }
@@ -35,6 +40,7 @@ private:
     RenderContext& context_;
     double alpha_;
     PhotonPass pass_;
+    PhotonGather<> gather_;
     Kernel add_gathered_;
 };
 
@@ -43,10 +49,11 @@ const MethodRegistration registration({
     .title = "Progressive photon mapping, a probabilistic approach",
     .paper = "Knaus and Zwicker 2011, ACM Transactions on Graphics 30(3)",
     .estimator_class = "consistent",
-    .description = "Averages independent photon-mapping renders whose radius shrinks from one to the next. Renders caustics and light seen through glass; "
+    .description = "Averages independent photon-mapping renders whose radius shrinks from one to the next. Renders caustics and light seen "
+                   "through glass; "
                    "the reference among the progressive methods.",
-    .parameters = {photons_spec(), radius_spec(), alpha_spec(), kernel_spec(), direct_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"),
-                   sampler_spec(), spectral_spec(), iterations_spec()},
+    .parameters = {photons_spec(), radius_spec(), alpha_spec(), kernel_spec(), direct_spec(), max_depth_spec(),
+                   rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), spectral_spec(), iterations_spec()},
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<ProbabilisticProgressivePhotonMapping>(context, parameters);
     },

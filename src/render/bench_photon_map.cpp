@@ -160,7 +160,7 @@ PhotonMapFigures bench_photon_map(Device& device)
     const std::vector<GatherQuery> host_queries = image_queries(radius);
     const Buffer<GatherQuery> queries(device, host_queries, "benchmark queries");
     const Buffer<LobeRecord> no_lobes(device, 1, "query lobes");
-    PhotonGather gather(device, query_count, "estimators/flux_sum.h", 0);
+    PhotonGather<> gather(device, query_count, "estimators/flux_sum.h", 0);
     std::vector<GatherSum> plain_sums(query_count);
     const PairedTimes gathered = time_in_turn(
         by_cpu, rounds,

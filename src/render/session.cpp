@@ -29,7 +29,13 @@ const MethodInfo& choose_method(const Scene& scene, const RenderSettings& settin
 {
     const bool from_scene = settings.method.empty() && !scene.integrator.method.empty();
     const std::string name = from_scene ? scene.integrator.method : settings.method.empty() ? default_method : settings.method;
-    if (const MethodInfo* info = find_method(name)) return *info;
+    if (const MethodInfo* info = find_method(name)) {
+        if (scene.moves() && !info->follows_motion)
+            throw SceneError(scene.sensor.where, fmt::format("{} cannot render what moves: it finds the points that the camera sees once; choose sppm (-m sppm), "
+                                                             "or give shutter_close the value of shutter_open",
+                                                             name));
+        return *info;
+    }
     std::vector<std::string> known;
     for (const MethodInfo* info : all_methods()) known.push_back(info->name);
     const std::string message = fmt::format("there is no method '{}'; choose one of {} (-m NAME)", name, fmt::join(known, ", "));

@@ -8,7 +8,8 @@
 
 namespace sundog {
 
-class PhotonGather {
+// Result: what the estimator's estimator_end returns.
+template <class Result = GatherSum> class PhotonGather {
 public:
     // estimator: an embedded header, such as "estimators/radiance_estimate.h"; density_kernel: n of (1 - t^2)^n;
     // lobes: the scene's surface options where it has lobes to evaluate.
@@ -28,7 +29,7 @@ public:
         gather_photons_(count, map.grid(), map.cell_ends(), map.cell_ends_offset(), map.streams(), queries, lobes, static_cast<uint>(count), sums);
     }
 
-    Buffer<GatherSum> sums; // by query: what the estimator's estimator_end returns
+    Buffer<Result> sums; // by query
 
 private:
     Kernel gather_photons_;

@@ -96,7 +96,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"parallel-light", "sppm", {{"radius", "0.2"}, {"direct", "photons"}, {"photons", "32768"}}}, Case{"parallel-light", "pppm", {}},
                     Case{"parallel-light", "sppm", {}}, Case{"point-over-plane", "pppm", {}}, Case{"point-over-plane", "sppm", {}},
                     Case{"sphere-light", "pppm", {}}, Case{"sphere-light", "sppm", {}}, Case{"glass-in-white", "pppm", {}}, Case{"glass-in-white", "sppm", {}},
-                    Case{"orthographic-plane", "pppm", {}}, Case{"orthographic-plane", "sppm", {}}),
+                    Case{"orthographic-plane", "pppm", {}}, Case{"orthographic-plane", "sppm", {}}, Case{"glass-in-white", "cppm", {}}, Case{"glass-in-white", "appm", {}},
+                    Case{"furnace", "appm", {{"radius", "0.1"}, {"direct", "photons"}}}, Case{"glass-in-white", "ppm", {}},
+                    Case{"furnace", "ppm", {{"radius", "0.1"}}}, Case{"parallel-light", "ppm", {{"radius", "0.2"}, {"photons", "32768"}}},
+                    Case{"furnace", "cppm", {{"radius", "0.1"}, {"direct", "photons"}}},
+                    Case{"parallel-light", "cppm", {{"radius", "0.2"}, {"direct", "photons"}, {"photons", "32768"}}}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -107,6 +111,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"point-over-plane", "pppm", {{"radius", "0.05"}, {"direct", "photons"}, {"kernel", "biweight"}, {"photons", "65536"}}, blur(0.05, 1.0 / 8, 1)},
         Case{"point-over-plane", "pppm", {{"radius", "0.05"}, {"direct", "photons"}, {"kernel", "triweight"}, {"photons", "65536"}}, blur(0.05, 1.0 / 10, 1)},
         Case{"point-over-plane", "sppm", {{"radius", "0.05"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.05, 1.0 / 4, 1)},
+        Case{"point-over-plane", "ppm", {{"radius", "0.05"}, {"photons", "65536"}}, blur(0.05, 1.0 / 4, 1)},
+        Case{"point-over-plane", "appm", {{"radius", "0.05"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.05, 1.0 / 6, 1)},
+        Case{"point-over-plane", "cppm", {{"radius", "0.05"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.05, 1.0 / 4, 1)},
         Case{"sphere-light", "pppm", {{"radius", "0.08"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.08, 1.0 / 6, 2)},
         Case{"sphere-light", "sppm", {{"radius", "0.08"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.08, 1.0 / 4, 2)}),
     name_of);

@@ -30,10 +30,12 @@ protected:
             {
                 if (get_global_id(0) != 0) return;
                 Estimate estimate;
-                estimator_begin(&estimate);
+                const GatherQuery query = {{0.0f, 0.0f, 0.0f}, radius, {1.0f, 1.0f, 1.0f}, 0u, {0.0f, 0.0f, 1.0f}, 0u};
+                const Offset8 unused = {(float8)(0.0f), (float8)(0.0f), (float8)(0.0f)}; // all are radially symmetric
+                estimator_begin(&estimate, &query);
                 for (uint i = 0u; i < count; i += 8u) {
                     __global const float* v = values + 4u * i;
-                    estimator_add(&estimate, vload8(0, masks + i), vload8(0, v), vload8(1, v), vload8(2, v), vload8(3, v));
+                    estimator_add(&estimate, vload8(0, masks + i), unused, vload8(0, v), vload8(1, v), vload8(2, v), vload8(3, v));
                 }
                 *sum = estimator_end(&estimate, radius);
             })",

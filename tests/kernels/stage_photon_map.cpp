@@ -64,7 +64,7 @@ protected:
         return queries;
     }
 
-    PhotonGather gather_{device_, 4096, "estimators/flux_sum.h", 0};
+    PhotonGather<> gather_{device_, 4096, "estimators/flux_sum.h", 0};
 };
 
 const Bounds unit_box{{0, 0, 0}, {1, 1, 1}};
@@ -201,7 +201,7 @@ TEST_F(PhotonMapStage, EmptyMapsAndQueriesOfNoRadius)
 TEST_F(PhotonMapStage, WhatLiesBeyondTheLastPhotonDoesNotCount)
 {
     for (const char* estimator : {"estimators/flux_sum.h", "estimators/radiance_estimate.h"}) {
-        PhotonGather gather(device_, 16, estimator, 1);
+        PhotonGather<> gather(device_, 16, estimator, 1);
         PhotonCloud cloud(device_, unit_box, 64);
         cloud.build(std::vector<Photon>(64, make_test_photon({0.5f, 0.5f, 0.5f}, {NAN, INFINITY, NAN})), 0.1f);
         cloud.build(std::vector<Photon>(3, make_test_photon({0.5f, 0.5f, 0.5f}, {1, 1, 1})), 0.1f);

@@ -71,7 +71,7 @@ TEST_F(ProgressiveStage, FollowsTheRecurrence)
         queries.upload(host_queries);
         sums.upload(host_sums);
         radiance.upload(host_radiance);
-        update_(pixels, queries, sums, static_cast<uint>(pixels), alpha, inverse_paths, device_pixels, radiance);
+        update_(pixels, queries, sums, radiance, static_cast<uint>(pixels), alpha, inverse_paths, device_pixels, radiance);
         if (iteration % 100 != 0) continue;
         const auto got = radiance.download();
         for (std::size_t i = 0; i < pixels; ++i)
@@ -102,7 +102,7 @@ TEST_F(ProgressiveStage, SteadyArrivalsShrinkTheRadiusInClosedForm)
     const float alpha = 2.0f / 3.0f;
     double expected = 1.0;
     for (int i = 0; i < 100; ++i) {
-        update_(1, queries, sums, 1u, alpha, 1.0f, pixels, radiance);
+        update_(1, queries, sums, radiance, 1u, alpha, 1.0f, pixels, radiance);
         expected *= static_cast<double>(alpha) * (i + 1) / (static_cast<double>(alpha) * i + 1.0);
     }
     EXPECT_NEAR(pixels.read(0).radius_squared / expected, 1.0, 1e-5);
@@ -123,7 +123,7 @@ TEST_F(ProgressiveStage, WhatIsNotFiniteStaysOutOfTheStatisticsButIsSeen)
     const auto queries = upload(std::vector{query, huge, query});
     const auto sums = upload(std::vector<GatherSum>{{{NAN, 1, 1}, 2.0f}, {{1e30f, 1, 1}, 2.0f}, {{1, 1, 1}, 2.0f}});
     const auto radiance = upload(std::vector<Vec3>{{1, 1, 1}, {1, 1, 1}, {INFINITY, 1, 1}});
-    update_(3, queries, sums, 3u, 0.5f, 1.0f, pixels, radiance);
+    update_(3, queries, sums, radiance, 3u, 0.5f, 1.0f, pixels, radiance);
     const auto got = pixels.download();
     const auto seen = radiance.download();
     for (std::size_t i = 0; i < 3; ++i) {
@@ -145,7 +145,7 @@ TEST_F(ProgressiveStage, QueriesTakeTheirPixelsRadius)
         queries[i].radius = i % 5 == 0 ? 0.0f : 7.0f;
     }
     const auto device_queries = upload(queries);
-    Kernel(device_, "set_query_radii", "Set radii")(100, upload(pixels), 100u, device_queries);
+    Kernel(device_, "set_query_radii", "Set radii", BuildOptions{{{"PIXEL_STATISTICS", "ProgressivePixel"}}, {}})(100, upload(pixels), 100u, device_queries);
     const auto got = device_queries.download();
     for (uint i = 0; i < 100; ++i)
         EXPECT_FLOAT_EQ(got[i].radius, i % 5 == 0 ? 0.0f : std::sqrt(pixels[i].radius_squared)) << i;

@@ -36,7 +36,7 @@ std::vector<Estimate> window_estimates(const Scene& scene, const RenderRequest& 
 
 bool uses_photons(const RenderRequest& request)
 {
-    return request.method == "pppm" || request.method == "sppm";
+    return request.method != "path" && request.method != "ptracer";
 }
 
 // bias: relative error that density estimation is known to make, allowed on top of noise.
@@ -65,7 +65,7 @@ RenderRequest request(const std::string& method, std::uint64_t iterations, const
 {
     RenderRequest r{method, iterations, {{"sampler", "independent"}, {"max_depth", "6"}}};
     if (method != "path") r.parameters["photons"] = "16384";
-    if (method == "pppm" || method == "sppm") r.parameters["radius"] = "0.01";
+    if (uses_photons(r)) r.parameters["radius"] = "0.01";
     if (!extra.empty()) r.parameters[extra] = value;
     return r;
 }
@@ -78,7 +78,7 @@ constexpr double edge_bias = 0.005;
 TEST(Agreement, DiffuseBox)
 {
     expect_agreement(cornell_box(size),
-                     {request("path", 64), request("ptracer", 16), request("pppm", 16), request("sppm", 16), request("pppm", 16, "direct", "photons")}, edge_bias);
+                     {request("path", 64), request("ptracer", 16), request("pppm", 16), request("sppm", 16), request("pppm", 16, "direct", "photons"), request("appm", 16)}, edge_bias);
 }
 
 TEST(Agreement, GlassAndMirrorSpheres)
@@ -89,7 +89,7 @@ TEST(Agreement, GlassAndMirrorSpheres)
     const uint mirror = add_bsdf(scene, ConductorBsdf{});
     scene.shapes.push_back(make_sphere({.45f, -.6f, .3f}, .4f, glass));
     scene.shapes.push_back(make_sphere({-.45f, -.6f, -.3f}, .4f, mirror));
-    expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24)}, edge_bias);
+    expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24), request("cppm", 24), request("ppm", 24)}, edge_bias);
 }
 
 AnimatedTransform between(const Transform& from, const Transform& to)

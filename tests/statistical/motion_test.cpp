@@ -229,5 +229,18 @@ TEST(Motion, ResumedIsUninterrupted)
     std::filesystem::remove(file);
 }
 
+TEST(Motion, MethodsOfFixedHitPointsRefuseIt)
+{
+    Scene scene = cornell_box(8);
+    move_camera(scene, {{0.0, Transform()}, {1.0, Transform::translate({0.1, 0, 0})}});
+    scene.sensor.shutter = {0, 1};
+    try {
+        render(scene, {"ppm", 1, {}}, 1);
+        FAIL() << "rendered";
+    } catch (const SceneError& error) {
+        EXPECT_NE(std::string(error.what()).find("-m sppm"), std::string::npos) << error.what();
+    }
+}
+
 } // namespace
 } // namespace sundog::test

@@ -22,7 +22,7 @@ RenderRequest request(const std::string& method, std::uint64_t iterations, bool 
 {
     RenderRequest r{method, iterations, {{"sampler", "independent"}, {"max_depth", "6"}, {"spectral", spectral ? "true" : "false"}}};
     if (method != "path") r.parameters["photons"] = "4096";
-    if (method == "pppm" || method == "sppm") r.parameters["radius"] = "0.02";
+    if (method == "pppm" || method == "sppm" || method == "cppm") r.parameters["radius"] = "0.02";
     for (const auto& [name, value] : more) r.parameters[name] = value;
     return r;
 }
@@ -129,7 +129,7 @@ TEST_P(SpectralMethods, ResumedIsUninterrupted)
     EXPECT_TRUE(resumed.image().pixels == whole.image().pixels);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, SpectralMethods, testing::Values("path", "ptracer", "pppm", "sppm"), [](const auto& method) { return method.param; });
+INSTANTIATE_TEST_SUITE_P(Methods, SpectralMethods, testing::Values("path", "ptracer", "pppm", "sppm", "cppm"), [](const auto& method) { return method.param; });
 
 // Light tracing cannot see what is behind glass, so the three others are compared. The bias is that of the edges, as in
 // agreement_test.cpp: 2 r 0.21 = 0.8% for r = 0.02.

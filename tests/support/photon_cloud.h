@@ -90,7 +90,7 @@ public:
         map.build(records_, count, largest_radius);
     }
 
-    std::vector<GatherSum> gather(PhotonGather& gather, const std::vector<GatherQuery>& queries)
+    template <class Result> std::vector<Result> gather(PhotonGather<Result>& gather, const std::vector<GatherQuery>& queries)
     {
         gather.gather(map, Buffer<GatherQuery>(*device_, queries, "queries"), Buffer<LobeRecord>(*device_, 1, "query lobes"), queries.size());
         return gather.sums.download(0, queries.size());

@@ -1,0 +1,38 @@
+#include "methods/light_pass.h"
+
+namespace sundog
+{
+
+LightPass::LightPass(RenderContext& context, const Parameters& parameters, bool direct_light_elsewhere)
+    : scene_(context.scene), light_paths_(light_path_count(parameters, context.film.pixel_count())),
+      photons_(context.device, context.scene, {light_paths_, path_rules(parameters), direct_light_elsewhere, sampler_kind(parameters)}),
+      map(context.device, context.scene.bounds())
+{
+}
+
+void LightPass::trace(PathPool& pool, SamplerKey key, float radius)
+{
+    const std::size_t stored = photons_.trace(scene_, pool, key);
+    map.build(photons_.photons(), stored, radius);
+    photons_stored_ += stored;
+}
+
+void LightPass::serialize(StateArchive& archive)
+{
+    archive.value("photons stored", photons_stored_);
+    photons_.serialize(archive);
+}
+
+PathRules query_rules(const Parameters& parameters)
+{
+    constexpr uint rr_depth = 8;
+    return {path_rules(parameters).max_depth, rr_depth};
+}
+
+float first_radius(const RenderContext& context, const Parameters& parameters)
+{
+    return initial_radius(parameters, context.scene.radius(), light_path_count(parameters, context.film.pixel_count()),
+                          pixel_footprint(context.camera, context.scene.bounds()));
+}
+
+} // namespace sundog

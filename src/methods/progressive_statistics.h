@@ -1,0 +1,42 @@
+// Local progressive statistics: of each pixel, or hit point, its radius, the photons and the flux that it has found
+// [Hachisuka, Ogaki and Jensen 2008; Hachisuka and Jensen 2009].
+#pragma once
+
+#include "device/buffer_state.h"
+#include "device/kernel.h"
+#include "film/device_film.h"
+#include "methods/parameters.h"
+#include "shared/photon.h"
+
+namespace sundog
+{
+
+class ProgressiveStatistics
+{
+public:
+    // count: of pixels, in path order; first_radius: in scene units; alpha: the share of new photons that are kept.
+    ProgressiveStatistics(Device& device, std::size_t count, float first_radius, double alpha);
+
+    void set_radii(const Buffer<GatherQuery>& queries);
+
+    // Adds one iteration: what queries found, and the radiance that is not from photons (`direct`, W/m^2/sr). Also adds
+    // the iteration's own estimate, 1 / inverse_paths light subpaths strong, to `radiance`, which may be `direct`.
+    void update(const Buffer<GatherQuery>& queries, const Buffer<GatherSum>& sums, const Buffer<Vec3>& direct, float inverse_paths,
+                Buffer<Vec3>& radiance);
+
+    // Adds share * L to the image, L = direct + tau / (pi r^2 N) by eq. 10 of the later paper. light_paths: an iteration's.
+    void add_radiance(Image& image, const DeviceFilm& film, std::size_t light_paths, double share) const;
+
+    void serialize(StateArchive& archive) { sundog::serialize(archive, "progressive pixels", pixels_); }
+
+private:
+    float alpha_;
+    Kernel set_query_radii_;
+    Kernel update_progressive_pixels_;
+    Buffer<ProgressivePixel> pixels_;
+};
+
+// Sets the image's radiance, its first three channels, to zero.
+void clear_radiance(Image& image);
+
+} // namespace sundog
