@@ -33,6 +33,7 @@ struct FlatScene {
     std::vector<uint> instance_groups; // index into groups, one an instance
     std::vector<Shape> shapes;
     std::vector<Bsdf> bsdfs;
+    std::vector<Principled> principled; // parameters of those BSDFs that are
     std::vector<Light> lights;
     std::vector<AliasEntry> light_alias; // one a light
     std::vector<LightProjection> light_projections;
