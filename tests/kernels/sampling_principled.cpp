@@ -101,11 +101,11 @@ TEST_F(PrincipledLobes, AreTheModelInTheMean)
     for (const PrincipledBsdf& bsdf : {mixed(), with(mixed(), 1.4f, 0.0f), with(mixed(), 0.7f, 0.5f), with(mixed(), 1.0f, 0.0f)}) {
         const PlainPrincipled model(bsdf);
         const ProbeScene scene({BsdfDescription{"", {}, bsdf}.model});
-        for (const double angle_o : {0.3, 1.3, pi - 0.4, pi - 1.2}) {
+        for (const double angle_o : {0.3, 1.3, pi - 0.7}) {
             for (const Vec3d i : {normalized({-0.4, -0.3, 0.7}), normalized({-0.8, 0.1, 0.15}), normalized({0.7, 0.5, 0.6}),
-                                  normalized({-0.3, -0.4, -0.8}), normalized({0.3, 0.1, -0.5})}) {
+                                  normalized({-0.3, -0.4, -0.8})}) {
                 const Vec3d o = direction_at(angle_o);
-                const Mean f = mean_of(evaluate(scene, {o}, std::vector<Vec3d>(10'000, i)), [](const BsdfDraw& s) { return s.evaluated; });
+                const Mean f = mean_of(evaluate(scene, {o}, std::vector<Vec3d>(4'000, i)), [](const BsdfDraw& s) { return s.evaluated; });
                 const bool transmits = bsdf.spec_trans.value > 0.0f;
                 const double expected = transmits || (o.z > 0.0 && i.z > 0.0) ? model(in_tangent_frame(o), in_tangent_frame(i)) : 0.0;
                 EXPECT_NEAR(f.value, expected, 4.5 * f.error + 2e-4 * expected) << o.z << " from " << i.z << ", eta " << bsdf.eta;
@@ -114,20 +114,23 @@ TEST_F(PrincipledLobes, AreTheModelInTheMean)
     }
 }
 
-// What paths carry on by all lobes together is the integral of the model, and so is that of each channel alone.
+// What paths carry on by all lobes together is the integral of the model.
 TEST_F(PrincipledLobes, CarryTheIntegralOfTheModel)
 {
-    const DirectionGrid grid{.rows = 200, .columns = 200};
-    const std::vector<Vec3d> midpoints = grid.midpoints(2);
+    constexpr int rows = 400, columns = 200; // of angles: the coat's peak is 0.15 rad wide
     for (const PrincipledBsdf& bsdf : {mixed(), with(mixed(), 1.4f, 0.0f)}) {
         const PlainPrincipled model(bsdf);
         for (const double angle : {0.1, 0.9, 1.4, pi - 0.5}) {
             const Vec3d o = direction_at(angle);
             if (o.z < 0.0 && bsdf.spec_trans.value == 0.0f) continue;
             double integral = 0.0;
-            for (const Vec3d i : midpoints) {
-                if (i.z < 0.0 && bsdf.spec_trans.value == 0.0f) continue;
-                integral += model(in_tangent_frame(o), in_tangent_frame(i)) * std::abs(i.z) * 4.0 * pi / static_cast<double>(midpoints.size());
+            for (int row = 0; row < (bsdf.spec_trans.value == 0.0f ? rows / 2 : rows); ++row) {
+                const double theta = pi * (row + 0.5) / rows, cosine = std::cos(theta), sine = std::sin(theta);
+                for (int column = 0; column < columns; ++column) {
+                    const double phi = 2.0 * pi * (column + 0.5) / columns;
+                    integral += model(in_tangent_frame(o), {sine * std::cos(phi), sine * std::sin(phi), cosine}) * std::abs(cosine) * sine *
+                                2.0 * pi * pi / (rows * columns);
+                }
             }
             const Mean albedo = mean_of(draw(ProbeScene({BsdfDescription{"", {}, bsdf}.model}), {o}, carries_radiance, 100'000),
                                         [](const BsdfDraw& s) { return s.absorbed() ? 0.0 : s.weight.x; });
@@ -149,15 +152,15 @@ const std::vector<Part> parts = {{"diffuse", diffuse_part(0.0f, 0.0f)}, {"flat",
 
 TEST_F(PrincipledLobes, SampleTheirDensity)
 {
-    constexpr uint count = 100'000;
-    constexpr int fine = 16;
+    constexpr uint count = 60'000;
+    constexpr int fine = 12;
     for (const Part& part : parts) {
         const ProbeScene scene({BsdfDescription{"", {}, part.bsdf}.model});
         for (const double angle : angles) {
             for (const Vec3d o : {direction_at(angle), direction_at(pi - angle)}) {
                 if (o.z < 0.0 && !part.both_sides) continue;
                 // Rows along the normal, so that the horizon is an edge of bins.
-                const DirectionGrid grid{.rows = 48, .columns = 24};
+                const DirectionGrid grid{.rows = 40, .columns = 24};
                 const std::vector<Vec3d> midpoints = grid.midpoints(fine);
                 std::vector<float> densities;
                 for (const BsdfDraw& s : evaluate(scene, {o}, midpoints)) densities.push_back(static_cast<float>(s.evaluated_pdf));

@@ -96,6 +96,33 @@ TEST_P(SpectralMethods, SameSeedSameBits)
     EXPECT_FALSE(render(scene, r, 5).pixels == render(scene, r, 6).pixels);
 }
 
+// Grey of any material stays grey: both coats of plastic, all of the principled BSDF, phong, and a panel in relief.
+TEST(Spectral, GreyMaterialsAreThoseOfRgb)
+{
+    Scene scene = cornell_box(16);
+    for (auto& bsdf : scene.bsdfs) bsdf.model = DiffuseBsdf{{.6f, .6f, .6f}};
+    const ColorSource grey(.5f, .5f, .5f);
+    PrincipledBsdf principled;
+    principled.base_color = grey;
+    principled.roughness = .6f;
+    principled.metallic = .3f;
+    principled.spec_trans = .4f;
+    principled.spec_tint = .5f;
+    principled.sheen = 1.0f;
+    principled.sheen_tint = .5f;
+    principled.clearcoat = 1.0f;
+    scene.shapes.push_back(make_sphere({-.6f, -.65f, .3f}, .3f, add_bsdf(scene, PlasticBsdf{1.5f, 1.0f, grey, grey, true})));
+    scene.shapes.push_back(make_sphere({.0f, -.65f, .3f}, .3f, add_bsdf(scene, PlasticBsdf{1.5f, 1.0f, grey, grey, false, Roughness{false, .3f, .3f}})));
+    scene.shapes.push_back(make_sphere({.6f, -.65f, .3f}, .3f, add_bsdf(scene, principled)));
+    scene.shapes.push_back(make_sphere({-.4f, .3f, -.3f}, .3f, add_bsdf(scene, PhongBsdf{grey, {.3f, .3f, .3f}, 10.0f})));
+    // A normal that is no grey: maps of normals are not colours.
+    scene.shapes.push_back(make_quad({.1f, .0f, -.3f}, {.9f, .0f, -.3f}, {.9f, .8f, -.6f}, {.1f, .8f, -.6f},
+                                     add_bsdf(scene, NormalMapBsdf{{.6f, .4f, .9f}, false, true, 0})));
+    for (const char* method : {"path", "pppm"})
+        expect_same_means({channel_estimates(scene, request(method, 24, false)), channel_estimates(scene, request(method, 24, true))},
+                          {"rgb", std::string("spectral ") + method}, 0.0);
+}
+
 // A glass ball of strong dispersion and a rough one, in a box.
 Scene dispersive_box(int size)
 {
