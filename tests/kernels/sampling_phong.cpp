@@ -83,7 +83,8 @@ TEST_F(Phong, SamplesFollowTheirDensity)
                 ASSERT_NEAR(s.weight.x, s.evaluated * s.direction.z / s.pdf, 1e-3) << exponent << " from " << angle;
             }
             std::vector<double> observed = grid.count(directions), expected = grid.expected(densities, fine, count);
-            EXPECT_TRUE(follows(observed, expected, static_cast<int>(angles.size() * exponents.size()), 1e-2)) << exponent << " from " << angle;
+            EXPECT_TRUE(follows(observed, expected, static_cast<int>(angles.size() * exponents.size()), 1e-2))
+                << exponent << " from " << angle;
         }
     }
 }

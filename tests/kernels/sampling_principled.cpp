@@ -56,6 +56,16 @@ PrincipledBsdf with(PrincipledBsdf bsdf, float eta, float spec_trans)
     return bsdf;
 }
 
+// Sheen on a base that is black.
+PrincipledBsdf dark_cloth()
+{
+    PrincipledBsdf bsdf = mixed();
+    bsdf.base_color = ColorSource(0.0f, 0.0f, 0.0f);
+    bsdf.metallic = 0.0f;
+    bsdf.spec_trans = 0.0f;
+    return bsdf;
+}
+
 // One part alone, white: all others are black.
 PrincipledBsdf diffuse_part(float flatness, float sheen)
 {
@@ -98,7 +108,8 @@ class PrincipledLobes : public BsdfProbe
 
 TEST_F(PrincipledLobes, AreTheModelInTheMean)
 {
-    for (const PrincipledBsdf& bsdf : {mixed(), with(mixed(), 1.4f, 0.0f), with(mixed(), 0.7f, 0.5f), with(mixed(), 1.0f, 0.0f)}) {
+    for (const PrincipledBsdf& bsdf :
+         {mixed(), with(mixed(), 1.4f, 0.0f), with(mixed(), 0.7f, 0.5f), with(mixed(), 1.0f, 0.0f), dark_cloth()}) {
         const PlainPrincipled model(bsdf);
         const ProbeScene scene({BsdfDescription{"", {}, bsdf}.model});
         for (const double angle_o : {0.3, 1.3, pi - 0.7}) {
@@ -150,6 +161,26 @@ const std::vector<Part> parts = {{"diffuse", diffuse_part(0.0f, 0.0f)}, {"flat",
                                  {"brushed", metal_part(0.7f, 0.6f)},   {"coat", coat_part(0.0f)},
                                  {"glass", glass_part(0.9f), true}};
 
+// Where only one lobe can be chosen, there is no noise.
+TEST_F(PrincipledLobes, EachIsItsPartOfTheModel)
+{
+    const std::vector<Vec3d> directions = DirectionGrid{.rows = 40, .columns = 20}.midpoints(1);
+    for (const Part& part : parts) {
+        const PlainPrincipled model(part.bsdf);
+        for (const double angle : angles) {
+            for (const Vec3d o : {direction_at(angle), direction_at(pi - angle)}) {
+                if (o.z < 0.0 && !part.both_sides) continue;
+                const auto values = evaluate(ProbeScene({BsdfDescription{"", {}, part.bsdf}.model}), {o}, directions);
+                for (std::size_t k = 0; k < directions.size(); ++k) {
+                    const Vec3d i = directions[k];
+                    const double expected = part.both_sides || i.z > 0.0 ? model(in_tangent_frame(o), in_tangent_frame(i)) : 0.0;
+                    ASSERT_NEAR(values[k].evaluated, expected, 2e-3 * expected + 1e-6) << part.name << " " << o.z << " from " << i.z;
+                }
+            }
+        }
+    }
+}
+
 TEST_F(PrincipledLobes, SampleTheirDensity)
 {
     constexpr uint count = 60'000;
@@ -173,7 +204,8 @@ TEST_F(PrincipledLobes, SampleTheirDensity)
                     directions.push_back(d);
                     if (s.pdf < 1e-3 || std::abs(d.z) < 0.01) continue;
                     ASSERT_NEAR(s.evaluated_pdf / s.pdf, 1.0, 1e-2) << part.name << " from " << angle;
-                    ASSERT_NEAR(s.weight.x, s.evaluated * std::abs(d.z) / s.pdf, 1e-2 * (s.weight.x + 0.1)) << part.name << " from " << angle;
+                    ASSERT_NEAR(s.weight.x, s.evaluated * std::abs(d.z) / s.pdf, 1e-2 * (s.weight.x + 0.1))
+                        << part.name << " from " << angle;
                 }
                 std::vector<double> observed = grid.count(directions), expected = grid.expected(densities, fine, count);
                 EXPECT_TRUE(follows(observed, expected, static_cast<int>(parts.size() + 1) * 4, 2e-2)) << part.name << " from z = " << o.z;
@@ -208,8 +240,8 @@ TEST_F(PrincipledLobes, FacetsMakeNoLight)
                                        coat_part(1.0f), glass_part(0.3f), glass_part(1.0f)}) {
         const ProbeScene scene({BsdfDescription{"", {}, bsdf}.model});
         for (const double angle : angles) {
-            const Mean albedo =
-                mean_of(draw(scene, {direction_at(angle)}, carries_flux, 20'000), [](const BsdfDraw& s) { return s.absorbed() ? 0.0 : s.weight.x; });
+            const Mean albedo = mean_of(draw(scene, {direction_at(angle)}, carries_flux, 20'000),
+                                        [](const BsdfDraw& s) { return s.absorbed() ? 0.0 : s.weight.x; });
             EXPECT_LT(albedo.value, 1.0 + 4.5 * albedo.error + 1e-4) << angle << ", roughness " << bsdf.roughness.value;
         }
     }

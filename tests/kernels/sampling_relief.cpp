@@ -105,7 +105,8 @@ TEST_P(ReliefLobes, SamplesFollowTheirDensity)
         for (const double angle : {0.2, 1.1}) {
             const Vec3d o = direction_at(angle);
             std::vector<float> densities; // what goes through the face is absorbed, though it has a density
-            for (const BsdfDraw& s : evaluate(scene, {o}, midpoints)) densities.push_back(s.evaluated > 0.0 ? static_cast<float>(s.evaluated_pdf) : 0.0f);
+            for (const BsdfDraw& s : evaluate(scene, {o}, midpoints))
+                densities.push_back(s.evaluated > 0.0 ? static_cast<float>(s.evaluated_pdf) : 0.0f);
             std::vector<Vec3d> directions;
             for (const BsdfDraw& s : draw(scene, {o}, carries_radiance, count)) {
                 if (s.absorbed()) continue;
@@ -141,7 +142,9 @@ TEST_P(ReliefLobes, TurnTheNormalAndThrowShadows)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Maps, ReliefLobes, testing::Values(Relief{"Normals", false, false}, Relief{"ShadowedNormals", false, true}, Relief{"Bumps", true, true}),
+INSTANTIATE_TEST_SUITE_P(Maps, ReliefLobes,
+                         testing::Values(Relief{"Normals", false, false}, Relief{"ShadowedNormals", false, true},
+                                         Relief{"Bumps", true, true}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 } // namespace

@@ -57,7 +57,8 @@ static inline BsdfSample sample_clearcoat(const Scattering* scattering, float3 o
     sample.eta_scale = 1.0f;
     sample.pdf_w = fmax(clearcoat_d(scattering->alpha_u, h) * h.z / (4.0f * fmax(cos_h, 1e-6f)), 1e-20f);
     sample.weight = (float3)(0.0f);
-    if (cos_h > 0.0f && i.z > 0.0f) sample.weight = scattering->reflectance * (clearcoat_factor(scattering, o, i, cos_h) * 4.0f * i.z * cos_h / h.z);
+    if (cos_h > 0.0f && i.z > 0.0f)
+        sample.weight = scattering->reflectance * (clearcoat_factor(scattering, o, i, cos_h) * 4.0f * i.z * cos_h / h.z);
     return sample;
 }
 

@@ -12,7 +12,8 @@ static inline float3 principled_fresnel(const Scattering* scattering, float cos_
     float cos_t;
     const float cosine = fmin(fabs(cos_h), 1.0f);
     const float3 f0 = scattering->reflectance, f90 = scattering->transmittance;
-    return scattering->eta_rgb * fresnel_dielectric(cosine, scattering->eta, &cos_t) + f0 + (f90 - f0) * schlick_weight(cosine, scattering->eta);
+    return scattering->eta_rgb * fresnel_dielectric(cosine, scattering->eta, &cos_t) + f0 +
+           (f90 - f0) * schlick_weight(cosine, scattering->eta);
 }
 
 static inline float3 evaluate_principled_specular(const Scattering* scattering, float3 outgoing, float3 incoming)

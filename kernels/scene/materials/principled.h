@@ -19,9 +19,9 @@
 
 // What the lobes are weighted by at a surface, in transport's colours.
 typedef struct PrincipledParts {
-    float3 diffuse;  // base colour of the diffuse part
+    float3 diffuse; // base colour of the diffuse part
     float3 sheen;
-    float3 f0, f90;  // of metal and of tinted dielectric reflection
+    float3 f0, f90;   // of metal and of tinted dielectric reflection
     float dielectric; // of untinted dielectric reflection beside glass
     float3 transmitted;
     float3 glass; // reflected by the glass
@@ -33,7 +33,8 @@ static inline float principled_number(const SurfaceView* scene, TexturedNumber n
     return clamp(textured_number(scene, number, surface), 0.0f, 1.0f);
 }
 
-static inline PrincipledParts principled_parts(const SurfaceView* scene, const Principled* p, const Bsdf* bsdf, const Surface* surface, bool outside)
+static inline PrincipledParts principled_parts(const SurfaceView* scene, const Principled* p, const Bsdf* bsdf, const Surface* surface,
+                                               bool outside)
 {
     const float3 color = fmax(textured_color(scene, p->base_color, surface), (float3)(0.0f));
     const float luminance = dot(color, LUMINANCE_WEIGHTS);
@@ -48,7 +49,8 @@ static inline PrincipledParts principled_parts(const SurfaceView* scene, const P
     if (!outside) return parts;
     const float sheen_tint = principled_number(scene, p->sheen_tint, surface);
     parts.diffuse = transport_reflectance(scene, color) * (nonmetal * (1.0f - spec_trans));
-    parts.sheen = transport_reflectance(scene, mix((float3)(1.0f), hue, sheen_tint)) * (nonmetal * principled_number(scene, p->sheen, surface));
+    parts.sheen =
+        transport_reflectance(scene, mix((float3)(1.0f), hue, sheen_tint)) * (nonmetal * principled_number(scene, p->sheen, surface));
     if (LOBE_OCCURS(LOBE_CLEARCOAT)) parts.clearcoat = principled_number(scene, p->clearcoat, surface);
     // Without an interface there is nothing that reflects: in Mitsuba not even metal.
     if (bsdf->eta == 1.0f) return parts;
@@ -62,7 +64,10 @@ static inline PrincipledParts principled_parts(const SurfaceView* scene, const P
     return parts;
 }
 
-static inline float mean_of_three(float3 v) { return (v.x + v.y + v.z) * (1.0f / 3.0f); }
+static inline float mean_of_three(float3 v)
+{
+    return (v.x + v.y + v.z) * (1.0f / 3.0f);
+}
 
 // About how much light each lobe sends on: LOBE_PRINCIPLED_DIFFUSE, LOBE_PRINCIPLED_SPECULAR, LOBE_CLEARCOAT, glass. A
 // function of what is known wherever a lobe is asked for, the outgoing direction and the surface; positive where the
@@ -80,7 +85,8 @@ static inline float4 principled_weights(const PrincipledParts* parts, float eta,
                     mean_of_three(parts->glass) * reflected + mean_of_three(parts->transmitted) * (1.0f - reflected));
 }
 
-static inline void choose_principled_lobe(const SurfaceView* scene, const Bsdf* bsdf, const Surface* surface, float u, Scattering* scattering)
+static inline void choose_principled_lobe(const SurfaceView* scene, const Bsdf* bsdf, const Surface* surface, float u,
+                                          Scattering* scattering)
 {
     const Principled p = scene->principled[bsdf->nested[0]];
     const PrincipledParts parts = principled_parts(scene, &p, bsdf, surface, scattering->cos_o > 0.0f);
