@@ -20,6 +20,12 @@ struct Relief {
     bool shadows;
 };
 
+// Printed by name.
+void PrintTo(const Relief& relief, std::ostream* out)
+{
+    *out << relief.name;
+}
+
 // x, y, z as a map of normals has them, along u, v and z.
 const Vec3d mapped(0.5, -0.3, 0.7);
 
