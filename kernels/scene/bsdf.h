@@ -1,10 +1,14 @@
 // Scattering at a surface: sample, evaluate, density; for camera and light subpaths alike.
 #ifndef SUNDOG_SCENE_BSDF_H
 #define SUNDOG_SCENE_BSDF_H
+#include "scene/lobes/clearcoat.h"
 #include "scene/lobes/coated_diffuse.h"
 #include "scene/lobes/conductor.h"
 #include "scene/lobes/dielectric.h"
 #include "scene/lobes/diffuse.h"
+#include "scene/lobes/phong.h"
+#include "scene/lobes/principled_diffuse.h"
+#include "scene/lobes/principled_specular.h"
 #include "scene/lobes/rough_conductor.h"
 #include "scene/lobes/rough_dielectric.h"
 #include "scene/material.h"
@@ -20,13 +24,22 @@ static inline bool is_specular(const Scattering* scattering)
     }
 }
 
-#define LOBES_MAY_BE_NARROW (LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR) || LOBE_OCCURS(LOBE_ROUGH_DIELECTRIC))
+#define LOBES_MAY_BE_NARROW                                                                                                                \
+    (LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR) || LOBE_OCCURS(LOBE_ROUGH_DIELECTRIC) || LOBE_OCCURS(LOBE_PRINCIPLED_SPECULAR) ||                   \
+     LOBE_OCCURS(LOBE_CLEARCOAT) || LOBE_OCCURS(LOBE_PHONG))
 
 // Smooth, but too narrow a lobe to look for photons with (and never true of a diffuse one).
 static inline bool is_narrow(const Scattering* scattering)
 {
-    return LOBES_MAY_BE_NARROW && (scattering->lobe == LOBE_ROUGH_DIELECTRIC ||
-                                   (scattering->lobe == LOBE_ROUGH_CONDUCTOR && fmin(scattering->alpha_u, scattering->alpha_v) < NARROW_ALPHA));
+    if (!LOBES_MAY_BE_NARROW) return false;
+    switch (scattering->lobe) {
+    case LOBE_CLEARCOAT:
+    case LOBE_ROUGH_DIELECTRIC: return true;
+    case LOBE_PRINCIPLED_SPECULAR:
+    case LOBE_ROUGH_CONDUCTOR: return fmin(scattering->alpha_u, scattering->alpha_v) < NARROW_ALPHA;
+    case LOBE_PHONG: return scattering->alpha_u > NARROW_EXPONENT;
+    default: return false;
+    }
 }
 
 static inline bool is_transmissive(const Scattering* scattering)
@@ -69,6 +82,18 @@ static inline float3 evaluate_lobe(const Scattering* scattering, const Surface* 
 #if LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR)
     case LOBE_ROUGH_CONDUCTOR: return evaluate_rough_conductor(scattering, surface->outgoing, incoming);
 #endif
+#if LOBE_OCCURS(LOBE_PRINCIPLED_DIFFUSE)
+    case LOBE_PRINCIPLED_DIFFUSE: return evaluate_principled_diffuse(scattering, surface->outgoing, incoming);
+#endif
+#if LOBE_OCCURS(LOBE_PRINCIPLED_SPECULAR)
+    case LOBE_PRINCIPLED_SPECULAR: return evaluate_principled_specular(scattering, surface->outgoing, incoming);
+#endif
+#if LOBE_OCCURS(LOBE_CLEARCOAT)
+    case LOBE_CLEARCOAT: return evaluate_clearcoat(scattering, surface->outgoing, incoming);
+#endif
+#if LOBE_OCCURS(LOBE_PHONG)
+    case LOBE_PHONG: return evaluate_phong(scattering, surface->outgoing, incoming);
+#endif
     default: return (float3)(0.0f);
     }
 }
@@ -105,9 +130,17 @@ static inline float bsdf_pdf_w(const Scattering* scattering, const Surface* surf
     if (cos_i <= 0.0f) return 0.0f;
     switch (scattering->lobe) {
     case LOBE_COATED_DIFFUSE:
+    case LOBE_PRINCIPLED_DIFFUSE:
     case LOBE_DIFFUSE: return diffuse_pdf_w(cos_i);
-#if LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR)
-    case LOBE_ROUGH_CONDUCTOR: return rough_conductor_pdf_w(scattering, surface->outgoing, incoming);
+#if LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR) || LOBE_OCCURS(LOBE_PRINCIPLED_SPECULAR)
+    case LOBE_PRINCIPLED_SPECULAR:
+    case LOBE_ROUGH_CONDUCTOR: return rough_reflection_pdf_w(scattering, surface->outgoing, incoming);
+#endif
+#if LOBE_OCCURS(LOBE_CLEARCOAT)
+    case LOBE_CLEARCOAT: return clearcoat_pdf_w(scattering, surface->outgoing, incoming);
+#endif
+#if LOBE_OCCURS(LOBE_PHONG)
+    case LOBE_PHONG: return phong_pdf_w(scattering, surface->outgoing, incoming);
 #endif
     default: return 0.0f;
     }
@@ -136,6 +169,18 @@ static inline bool bsdf_sample(const Scattering* scattering, const Surface* surf
 #endif
 #if LOBE_OCCURS(LOBE_COATED_DIFFUSE)
     case LOBE_COATED_DIFFUSE: *sample = sample_coated_diffuse(scattering, u.xy); break;
+#endif
+#if LOBE_OCCURS(LOBE_PRINCIPLED_DIFFUSE)
+    case LOBE_PRINCIPLED_DIFFUSE: *sample = sample_principled_diffuse(scattering, o, u.xy); break;
+#endif
+#if LOBE_OCCURS(LOBE_PRINCIPLED_SPECULAR)
+    case LOBE_PRINCIPLED_SPECULAR: *sample = sample_principled_specular(scattering, o, u.xy); break;
+#endif
+#if LOBE_OCCURS(LOBE_CLEARCOAT)
+    case LOBE_CLEARCOAT: *sample = sample_clearcoat(scattering, o, u.xy); break;
+#endif
+#if LOBE_OCCURS(LOBE_PHONG)
+    case LOBE_PHONG: *sample = sample_phong(scattering, o, u.xy); break;
 #endif
     case LOBE_NULL: *sample = specular_sample(-o, (float3)(1.0f)); break;
     default: *sample = sample_diffuse(scattering, u.xy); break;

@@ -3,7 +3,9 @@
 #define SUNDOG_SCENE_MATERIAL_H
 #include "scene/dispersion.h"
 #include "scene/materials/perturbed_normal.h"
+#include "scene/materials/phong.h"
 #include "scene/materials/plastic.h"
+#include "scene/materials/principled.h"
 #include "scene/scattering.h"
 #include "scene/texture.h"
 
@@ -33,6 +35,10 @@ static inline Bsdf facing_bsdf(const SurfaceView* scene, uint index, const Surfa
     }
     return bsdf;
 }
+
+#define LOBES_HAVE_FACETS                                                                                                                  \
+    (LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR) || LOBE_OCCURS(LOBE_ROUGH_DIELECTRIC) || LOBE_OCCURS(LOBE_PRINCIPLED_SPECULAR) ||                   \
+     LOBE_OCCURS(LOBE_CLEARCOAT))
 
 // Along the texture's u, perpendicular to the normal.
 static inline float3 lobe_tangent(const Surface* surface, float3 normal)
@@ -100,7 +106,13 @@ static inline Scattering scattering_at(const SurfaceView* scene, const Surface* 
 #if BSDF_OCCURS(BSDF_PLASTIC) || BSDF_OCCURS(BSDF_ROUGH_PLASTIC)
     if (bsdf.type == BSDF_PLASTIC || bsdf.type == BSDF_ROUGH_PLASTIC) choose_plastic_lobe(scene, &bsdf, surface, u, &scattering);
 #endif
-    if (LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR) || LOBE_OCCURS(LOBE_ROUGH_DIELECTRIC)) scattering.tangent = lobe_tangent(surface, scattering.normal);
+#if BSDF_OCCURS(BSDF_PRINCIPLED)
+    if (bsdf.type == BSDF_PRINCIPLED) choose_principled_lobe(scene, &bsdf, surface, u, &scattering);
+#endif
+#if BSDF_OCCURS(BSDF_PHONG)
+    if (bsdf.type == BSDF_PHONG) choose_phong_lobe(scene, &bsdf, surface, u, &scattering);
+#endif
+    if (LOBES_HAVE_FACETS) scattering.tangent = lobe_tangent(surface, scattering.normal);
     return scattering;
 }
 

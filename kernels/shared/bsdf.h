@@ -16,9 +16,10 @@ SHARED_BEGIN
 #define BSDF_BLEND 8u            // nested[1] with probability `weight`, else nested[0]
 #define BSDF_PLASTIC 9u          // a smooth dielectric coat (eta, specular) over a diffuse base (reflectance)
 #define BSDF_ROUGH_PLASTIC 10u   // the same with alpha, and the coat's transmittance in eta_rgb, k_rgb, transmittance
-
 #define BSDF_NORMAL_MAP 11u      // nested[0] about the normal that `reflectance` says
 #define BSDF_BUMP_MAP 12u        // nested[0] about the normal of heights `weight`
+#define BSDF_PRINCIPLED 13u      // eta, and nested[0] in `principled`
+#define BSDF_PHONG 14u           // a diffuse part (reflectance) and a lobe (specular) whose exponent is alpha_u
 
 // Scatters on both sides: the back by the BSDF `back`. Without it, the back of
 // an opaque BSDF is black, as in Mitsuba.
@@ -36,6 +37,9 @@ SHARED_BEGIN
 // would shadow.
 #define BSDF_FLIPS_NORMALS 64u
 #define BSDF_SHADOWS_RELIEF 128u
+// A principled BSDF with a clear coat; and one that transmits.
+#define BSDF_CLEARCOATED 512u
+#define BSDF_TRANSMITS 1024u
 // A dielectric whose index depends on the wavelength, in spectral transport: eta is that at the sodium D line, eta_rgb and
 // k_rgb hold Sellmeier's first three B and C (square micrometres).
 #define BSDF_DISPERSIVE (1u << 30)
@@ -45,6 +49,8 @@ SHARED_BEGIN
 // ones are: few photons arrive from where they look. So is ground glass of any roughness, which photons
 // mostly pass.
 #define NARROW_ALPHA 0.15f
+// Phong's lobe cos^n is as wide as the reflection by facets of alpha^2 = 1 / (2 n).
+#define NARROW_EXPONENT 22.0f
 
 typedef struct Bsdf {
     uint type;
@@ -74,6 +80,10 @@ SHARED_SIZE(Bsdf, 128);
 #define LOBE_ROUGH_CONDUCTOR 5u
 #define LOBE_ROUGH_DIELECTRIC 6u
 #define LOBE_COATED_DIFFUSE 7u
+#define LOBE_PRINCIPLED_DIFFUSE 8u
+#define LOBE_PRINCIPLED_SPECULAR 9u
+#define LOBE_CLEARCOAT 10u
+#define LOBE_PHONG 11u
 
 // Of a lobe, beside BSDF_BECKMANN and BSDF_SHADOWS_RELIEF: its normal is not the surface's shading normal.
 #define LOBE_PERTURBED 256u

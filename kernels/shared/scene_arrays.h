@@ -7,6 +7,7 @@
 #include "shared/environment.h"
 #include "shared/geometry.h"
 #include "shared/light.h"
+#include "shared/principled.h"
 #include "shared/ray.h"
 #include "shared/texture.h"
 #include "shared/vec2.h"
@@ -42,6 +43,7 @@ SHARED_SIZE(SceneGlobals, 152);
     X(uint, texels)                                                                                \
     X(Shape, shapes)                                                                               \
     X(Bsdf, bsdfs)                                                                                 \
+    X(Principled, principled)                                                                      \
     X(Light, lights)                                                                               \
     X(AliasEntry, light_alias)                                                                     \
     X(LightProjection, light_projections)                                                          \

@@ -15,6 +15,10 @@ static inline float3 albedo_of(const Scattering* scattering)
     switch (scattering->lobe) {
     case LOBE_CONDUCTOR:
     case LOBE_ROUGH_CONDUCTOR: return scattering->reflectance * fresnel_conductor(1.0f, scattering->eta_rgb, scattering->k_rgb);
+#if LOBE_OCCURS(LOBE_PRINCIPLED_SPECULAR)
+    case LOBE_PRINCIPLED_SPECULAR: return principled_fresnel(scattering, 1.0f);
+#endif
+    case LOBE_CLEARCOAT: return scattering->reflectance * (4.0f * CLEARCOAT_F0); // f has no 1 / 4
     default: return scattering->reflectance;
     }
 }

@@ -22,6 +22,14 @@ const char* kind(const PlasticBsdf& bsdf)
 {
     return bsdf.roughness ? "roughplastic" : "plastic";
 }
+const char* kind(const PrincipledBsdf&)
+{
+    return "principled";
+}
+const char* kind(const PhongBsdf&)
+{
+    return "phong";
+}
 const char* kind(const MaskBsdf&) { return "mask"; }
 const char* kind(const BlendBsdf&) { return "blendbsdf"; }
 const char* kind(const NormalMapBsdf&)
@@ -61,7 +69,7 @@ template <class T> std::uint64_t bytes_of(const std::vector<T>& array) { return 
 
 std::uint64_t device_bytes(const FlatScene& flat, const Bvh& bvh)
 {
-    return bytes_of(flat.positions) + bytes_of(flat.normals) + bytes_of(flat.triangles) + bytes_of(flat.analytics) + bytes_of(flat.shapes) + bytes_of(flat.bsdfs) +
+    return bytes_of(flat.positions) + bytes_of(flat.normals) + bytes_of(flat.triangles) + bytes_of(flat.analytics) + bytes_of(flat.shapes) + bytes_of(flat.bsdfs) + bytes_of(flat.principled) +
            bytes_of(flat.lights) + bytes_of(flat.light_alias) + bytes_of(flat.light_projections) + bytes_of(flat.environment_maps) +
            bytes_of(flat.environment_alias) + bytes_of(flat.uvs) + bytes_of(flat.textures) + bytes_of(flat.texels) + bytes_of(flat.attribute_ranges) +
            bytes_of(flat.attribute_values) + sizeof(SceneGlobals) + bytes_of(bvh.instances) + bytes_of(bvh.nodes) + bytes_of(bvh.blocks);

@@ -1,5 +1,6 @@
 #include "import/bsdf_import.h"
 
+#include "import/principled_import.h"
 #include "import/text_file.h"
 #include "scene/materials.h"
 
@@ -13,9 +14,10 @@ namespace
 {
 
 constexpr const char* supported_bsdfs = "diffuse, dielectric, roughdielectric, thindielectric, conductor, roughconductor, plastic, "
-                                        "roughplastic, mask, blendbsdf, mixturebsdf, normalmap, bumpmap, twosided, null";
+                                        "roughplastic, principled, phong, mask, blendbsdf, mixturebsdf, normalmap, bumpmap, twosided, null";
 constexpr uint max_nesting = 6; // of masks and blends: the device has room for a few more
 constexpr double max_alpha = 1.0;
+constexpr double max_exponent = 1e5; // beyond it single precision has no digits for the lobe
 
 // BSDFs of Mitsuba that are refused, and what comes near them.
 struct Refusal {
@@ -23,10 +25,9 @@ struct Refusal {
     const char* cure;
 };
 constexpr Refusal refusals[] = {
-    {"ward", "use roughconductor, or blendbsdf of it and diffuse"},
-    {"phong", "use roughplastic, or blendbsdf of diffuse and roughconductor"},
-    {"coating", "use plastic, or blendbsdf of the coated bsdf and conductor"},
-    {"roughcoating", "use roughplastic, or blendbsdf of the coated bsdf and roughconductor"},
+    {"ward", "use principled with its roughness and anisotropic, or blendbsdf of diffuse and roughconductor"},
+    {"coating", "use plastic over a diffuse base, principled with clearcoat, or blendbsdf of the coated bsdf and conductor"},
+    {"roughcoating", "use roughplastic over a diffuse base, principled with clearcoat, or blendbsdf of the coated bsdf and roughconductor"},
     {"difftrans", "use diffuse, or roughdielectric"},
     {"hk", "use diffuse"},
     {"irawan", "use diffuse with a bitmap"},
@@ -34,8 +35,12 @@ constexpr Refusal refusals[] = {
     {"measured", "use roughconductor, or roughplastic"},
     {"measured_polarized", "use roughconductor, or roughplastic"},
     {"pplastic", "use plastic, or roughplastic: light is not polarised here"},
-    {"principled", "use roughplastic, roughconductor or roughdielectric, or blendbsdf of them"},
-    {"principledthin", "use thindielectric, or blendbsdf of it and diffuse"},
+    {"principledthin", "use thindielectric, or blendbsdf of it and a twosided principled"},
+    {"openpbr", "use principled"},
+    {"neuralbsdf", "use principled"},
+    {"polarizer", "use mask over null to dim light: it is not polarised here"},
+    {"retarder", "use null: light is not polarised here"},
+    {"circular", "use mask over null to dim light: it is not polarised here"},
 };
 
 bool transmits(const std::vector<BsdfDescription>& bsdfs, uint index)
@@ -44,6 +49,7 @@ bool transmits(const std::vector<BsdfDescription>& bsdfs, uint index)
     if (const auto* blend = std::get_if<BlendBsdf>(&model)) return transmits(bsdfs, blend->nested[0]) || transmits(bsdfs, blend->nested[1]);
     if (const auto* map = std::get_if<NormalMapBsdf>(&model)) return transmits(bsdfs, map->nested);
     if (const auto* map = std::get_if<BumpMapBsdf>(&model)) return transmits(bsdfs, map->nested);
+    if (const auto* principled = std::get_if<PrincipledBsdf>(&model)) return principled->transmits();
     return std::holds_alternative<DielectricBsdf>(model) || std::holds_alternative<NullBsdf>(model) || std::holds_alternative<MaskBsdf>(model);
 }
 
@@ -106,6 +112,8 @@ BsdfImporter::Model BsdfImporter::read(ObjectReader& reader)
         return bsdf;
     }
     if (type == "plastic" || type == "roughplastic") return read_plastic(reader, type == "roughplastic");
+    if (type == "principled") return read_principled(reader, textures_);
+    if (type == "phong") return read_phong(reader);
     if (type == "null") return NullBsdf{};
     if (type == "mask") return read_mask(reader);
     if (type == "blendbsdf") return read_blend(reader);
@@ -199,10 +207,27 @@ PlasticBsdf BsdfImporter::read_plastic(ObjectReader& reader, bool rough)
     bsdf.nonlinear = reader.boolean("nonlinear", false);
     if (!rough) return bsdf;
     if (reader.object("alpha", "texture"))
-        throw SceneError(reader.where_of("alpha"), "'alpha' of a roughplastic must be a number, not a texture");
+        throw SceneError(reader.where_of("alpha"), "'alpha' of a roughplastic must be a number, not a texture: use principled, or blendbsdf of two roughplastic");
     for (const char* name : {"alpha_u", "alpha_v"})
         reader.refuse(name, "the coat of plastic is as rough along u as along v: give it 'alpha'");
     bsdf.roughness = read_roughness(reader);
+    return bsdf;
+}
+
+// 0.6: what adds up to more than 1 is scaled to 0.99. Of textures nothing is known here, and they are left alone.
+PhongBsdf BsdfImporter::read_phong(ObjectReader& reader)
+{
+    PhongBsdf bsdf;
+    bsdf.diffuse_reflectance = reflectance(reader, "diffuse_reflectance", {0.5f, 0.5f, 0.5f});
+    bsdf.specular_reflectance = reflectance(reader, "specular_reflectance", {0.2f, 0.2f, 0.2f});
+    bsdf.exponent = textures_.number(reader, "exponent", 30.0, 0.0, max_exponent);
+    if (bsdf.diffuse_reflectance.texture || bsdf.specular_reflectance.texture) return bsdf;
+    const Vec3 sum = bsdf.diffuse_reflectance.value + bsdf.specular_reflectance.value;
+    const float most = std::max({sum.x, sum.y, sum.z});
+    if (most <= 1.0f) return bsdf;
+    for (ColorSource* part : {&bsdf.diffuse_reflectance, &bsdf.specular_reflectance}) part->value = part->value * (0.99f / most);
+    index_.warn(reader.where(), "diffuse_reflectance and specular_reflectance of a phong bsdf add up to more than 1 and were scaled to 0.99",
+                WarningKind::approximated);
     return bsdf;
 }
 

@@ -1,5 +1,7 @@
 #include "import/bsdf_writer.h"
 
+#include "import/principled_import.h"
+
 namespace sundog
 {
 
@@ -52,6 +54,22 @@ void BsdfWriter::write(ObjectWriter root, const std::string& id, const PlasticBs
     textures_.color(object, "specular_reflectance", bsdf.specular_reflectance);
     object.boolean("nonlinear", bsdf.nonlinear);
     write_roughness(object, bsdf.roughness);
+}
+
+void BsdfWriter::write(ObjectWriter root, const std::string& id, const PrincipledBsdf& bsdf) const
+{
+    ObjectWriter object = root.object("bsdf", "principled", "", id);
+    textures_.color(object, "base_color", bsdf.base_color);
+    object.number("eta", bsdf.eta);
+    for (const PrincipledNumber& number : principled_numbers) textures_.number(object, number.name, bsdf.*number.member);
+}
+
+void BsdfWriter::write(ObjectWriter root, const std::string& id, const PhongBsdf& bsdf) const
+{
+    ObjectWriter object = root.object("bsdf", "phong", "", id);
+    textures_.color(object, "diffuse_reflectance", bsdf.diffuse_reflectance);
+    textures_.color(object, "specular_reflectance", bsdf.specular_reflectance);
+    textures_.number(object, "exponent", bsdf.exponent);
 }
 
 void BsdfWriter::write(ObjectWriter root, const std::string& id, const NormalMapBsdf& bsdf) const

@@ -21,6 +21,8 @@ private:
     void write(ObjectWriter root, const std::string& id, const DielectricBsdf& bsdf) const;
     void write(ObjectWriter root, const std::string& id, const ConductorBsdf& bsdf) const;
     void write(ObjectWriter root, const std::string& id, const PlasticBsdf& bsdf) const;
+    void write(ObjectWriter root, const std::string& id, const PrincipledBsdf& bsdf) const;
+    void write(ObjectWriter root, const std::string& id, const PhongBsdf& bsdf) const;
     void write(ObjectWriter root, const std::string& id, const NormalMapBsdf& bsdf) const;
     void write(ObjectWriter root, const std::string& id, const BumpMapBsdf& bsdf) const;
     void write(ObjectWriter root, const std::string& id, const NullBsdf& bsdf) const;

@@ -127,6 +127,7 @@ FlatScene flatten_scene(const Scene& scene)
 {
     FlatScene flat;
     flat.bsdfs = flatten_bsdfs(scene.bsdfs);
+    flat.principled = flatten_principled(scene.bsdfs);
     flatten_textures(scene, flat);
     for (const auto& description : scene.shapes) flat.shapes.push_back({description.bsdf, NO_LIGHT, 0, 0});
     flat.world = flatten_shapes(scene, std::nullopt, flat);
@@ -172,7 +173,8 @@ bool needs_texture_coordinates(const FlatScene& flat)
 {
     const auto anisotropic = [](const Bsdf& bsdf) { return bsdf.alpha_u.value != bsdf.alpha_v.value || bsdf.alpha_u.texture != bsdf.alpha_v.texture; };
     const auto relief = [](const Bsdf& bsdf) { return bsdf.type == BSDF_NORMAL_MAP || bsdf.type == BSDF_BUMP_MAP; };
-    return !flat.textures.empty() || std::any_of(flat.bsdfs.begin(), flat.bsdfs.end(), relief) ||
+    const auto brushed = [](const Principled& principled) { return principled.anisotropic.value != 0.0f; };
+    return !flat.textures.empty() || std::any_of(flat.principled.begin(), flat.principled.end(), brushed) || std::any_of(flat.bsdfs.begin(), flat.bsdfs.end(), relief) ||
            std::any_of(flat.bsdfs.begin(), flat.bsdfs.end(), anisotropic);
 }
 

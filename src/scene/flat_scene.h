@@ -42,6 +42,7 @@ struct FlatScene {
     Shutter shutter;
     std::vector<Shape> shapes;
     std::vector<Bsdf> bsdfs;
+    std::vector<Principled> principled; // parameters of those BSDFs that are
     std::vector<Light> lights;
     std::vector<AliasEntry> light_alias; // one a light
     std::vector<LightProjection> light_projections;

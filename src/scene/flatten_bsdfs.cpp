@@ -3,6 +3,7 @@
 #include "scene/plastic_coat.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sundog {
 
@@ -60,8 +61,19 @@ void set_dispersion(Bsdf& bsdf, const SellmeierFormula& formula)
     bsdf.sellmeier_c4 = static_cast<float>(formula.c[3]);
 }
 
+// Whether a query may meet its diffuse part, or facets that are not narrow.
+bool is_broad(const PrincipledBsdf& bsdf)
+{
+    const auto always = [](const NumberSource& number) { return !number.texture && number.value >= 1.0f; };
+    const bool diffuse = !always(bsdf.metallic) && (!always(bsdf.spec_trans) || bsdf.sheen.may_be_positive());
+    const float alpha = bsdf.roughness.value * bsdf.roughness.value * std::sqrt(1.0f - 0.9f * bsdf.anisotropic.value);
+    return diffuse || bsdf.roughness.texture || bsdf.anisotropic.texture || alpha >= NARROW_ALPHA;
+}
+
 // Of one description by itself; what it takes from nested ones comes later.
 struct BsdfFlattener {
+    uint& principled_count; // so far
+
     Bsdf operator()(const DiffuseBsdf& diffuse) const
     {
         Bsdf bsdf = record(BSDF_DIFFUSE, BSDF_HAS_SMOOTH | BSDF_HAS_BROAD | BSDF_BLACK_BACK);
@@ -109,6 +121,24 @@ struct BsdfFlattener {
         bsdf.eta_rgb = {c[0], c[1], c[2]};
         bsdf.k_rgb = {c[3], c[4], c[5]};
         bsdf.transmittance.value = {c[6], c[7], c[8]};
+        return bsdf;
+    }
+    Bsdf operator()(const PrincipledBsdf& principled) const
+    {
+        const bool transmits = principled.transmits();
+        Bsdf bsdf = record(BSDF_PRINCIPLED, BSDF_HAS_SMOOTH | (is_broad(principled) ? BSDF_HAS_BROAD : 0u) |
+                                                (transmits ? BSDF_TRANSMITS : BSDF_BLACK_BACK) |
+                                                (principled.clearcoat.may_be_positive() ? BSDF_CLEARCOATED : 0u));
+        bsdf.eta = principled.eta;
+        bsdf.nested[0] = principled_count++;
+        return bsdf;
+    }
+    Bsdf operator()(const PhongBsdf& phong) const
+    {
+        Bsdf bsdf = record(BSDF_PHONG, BSDF_HAS_SMOOTH | BSDF_HAS_BROAD | BSDF_BLACK_BACK);
+        bsdf.reflectance = flatten(phong.diffuse_reflectance);
+        bsdf.specular = flatten(phong.specular_reflectance);
+        bsdf.alpha_u = bsdf.alpha_v = flatten(phong.exponent);
         return bsdf;
     }
     Bsdf operator()(const NullBsdf&) const { return record(BSDF_NULL, no_flags); }
@@ -163,6 +193,11 @@ uint lobes_of(const Bsdf& bsdf)
         return bit(LOBE_CONDUCTOR) | bit(LOBE_COATED_DIFFUSE);
     case BSDF_ROUGH_PLASTIC:
         return bit(LOBE_ROUGH_CONDUCTOR) | bit(LOBE_COATED_DIFFUSE);
+    case BSDF_PRINCIPLED:
+        return bit(LOBE_PRINCIPLED_DIFFUSE) | bit(LOBE_PRINCIPLED_SPECULAR) | (bsdf.flags & BSDF_CLEARCOATED ? bit(LOBE_CLEARCOAT) : 0u) |
+               (bsdf.flags & BSDF_TRANSMITS ? bit(LOBE_ROUGH_DIELECTRIC) : 0u);
+    case BSDF_PHONG:
+        return bit(LOBE_DIFFUSE) | bit(LOBE_PHONG);
     default:
         return bit(bsdf.type); // the first types are lobes
     }
@@ -206,9 +241,23 @@ TexturedNumber flatten(const NumberSource& number)
 std::vector<Bsdf> flatten_bsdfs(const std::vector<BsdfDescription>& descriptions)
 {
     std::vector<Bsdf> bsdfs;
-    for (const auto& description : descriptions) bsdfs.push_back(std::visit(BsdfFlattener{}, description.model));
+    uint principled_count = 0;
+    for (const auto& description : descriptions) bsdfs.push_back(std::visit(BsdfFlattener{principled_count}, description.model));
     for (std::size_t i = 0; i < descriptions.size(); i++) take_from_nested(descriptions[i], bsdfs, i);
     return bsdfs;
+}
+
+std::vector<Principled> flatten_principled(const std::vector<BsdfDescription>& descriptions)
+{
+    std::vector<Principled> records;
+    for (const auto& description : descriptions) {
+        const auto* bsdf = std::get_if<PrincipledBsdf>(&description.model);
+        if (!bsdf) continue;
+        records.push_back({flatten(bsdf->base_color), flatten(bsdf->roughness), flatten(bsdf->anisotropic), flatten(bsdf->metallic),
+                           flatten(bsdf->spec_trans), flatten(bsdf->spec_tint), flatten(bsdf->sheen), flatten(bsdf->sheen_tint),
+                           flatten(bsdf->flatness), flatten(bsdf->clearcoat), flatten(bsdf->clearcoat_gloss)});
+    }
+    return records;
 }
 
 bool has_dispersion(std::span<const Bsdf> bsdfs)
@@ -232,7 +281,8 @@ uint lobe_types(std::span<const Bsdf> bsdfs)
 
 bool has_lobes_to_evaluate(std::span<const Bsdf> bsdfs)
 {
-    constexpr uint evaluated = bit(LOBE_ROUGH_CONDUCTOR) | bit(LOBE_ROUGH_DIELECTRIC) | bit(LOBE_COATED_DIFFUSE);
+    constexpr uint evaluated = bit(LOBE_ROUGH_CONDUCTOR) | bit(LOBE_ROUGH_DIELECTRIC) | bit(LOBE_COATED_DIFFUSE) |
+                               bit(LOBE_PRINCIPLED_DIFFUSE) | bit(LOBE_PRINCIPLED_SPECULAR) | bit(LOBE_CLEARCOAT) | bit(LOBE_PHONG);
     constexpr uint turned = bit(BSDF_NORMAL_MAP) | bit(BSDF_BUMP_MAP); // of which even diffuse ones are evaluated
     return (lobe_types(bsdfs) & evaluated) != 0 || (bsdf_types(bsdfs) & turned) != 0;
 }

@@ -3,6 +3,7 @@
 
 #include "scene/scene.h"
 #include "shared/bsdf.h"
+#include "shared/principled.h"
 
 #include <span>
 #include <vector>
@@ -11,6 +12,8 @@ namespace sundog {
 
 // One record a description, in the same order.
 std::vector<Bsdf> flatten_bsdfs(const std::vector<BsdfDescription>& descriptions);
+// Of the principled ones among them, in the same order.
+std::vector<Principled> flatten_principled(const std::vector<BsdfDescription>& descriptions);
 
 TexturedColor flatten(const ColorSource& color);
 TexturedNumber flatten(const NumberSource& number);

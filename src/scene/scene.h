@@ -92,6 +92,8 @@ struct NumberSource {
     NumberSource() = default;
     NumberSource(float number) : value(number) {}
     NumberSource(float factor, uint index) : value(factor), texture(index) {}
+
+    bool may_be_positive() const { return texture || value > 0.0f; }
 };
 
 enum class TexelFormat { srgb8, linear8, half, float32 }; // as TEXELS_... of kernels/shared/texture.h; float32 of environments alone
@@ -175,6 +177,31 @@ struct PlasticBsdf {
     std::optional<Roughness> roughness = std::nullopt; // of the coat: isotropic, a number
 };
 
+// Disney's, with Mitsuba's parameters: each is between 0 and 1 (kernels/shared/principled.h says what it does).
+struct PrincipledBsdf {
+    ColorSource base_color{0.5f, 0.5f, 0.5f};
+    NumberSource roughness{0.5f};
+    NumberSource anisotropic{0.0f};
+    NumberSource metallic{0.0f};
+    NumberSource spec_trans{0.0f};
+    float eta = 1.5f; // interior over exterior index
+    NumberSource spec_tint{0.0f};
+    NumberSource sheen{0.0f};
+    NumberSource sheen_tint{0.0f};
+    NumberSource flatness{0.0f};
+    NumberSource clearcoat{0.0f};
+    NumberSource clearcoat_gloss{0.0f};
+
+    bool transmits() const { return spec_trans.may_be_positive(); }
+};
+
+// The modified Phong model [Lafortune and Willems 1994].
+struct PhongBsdf {
+    ColorSource diffuse_reflectance{0.5f, 0.5f, 0.5f};
+    ColorSource specular_reflectance{0.2f, 0.2f, 0.2f};
+    NumberSource exponent{30.0f};
+};
+
 // Another BSDF about a normal that a texture says: (x, y, z) + 1, halved, in the frame of u, v and the shading normal.
 struct NormalMapBsdf {
     ColorSource normals{0.5f, 0.5f, 1.0f};
@@ -214,7 +241,7 @@ struct BsdfDescription {
     std::string id; // as in the file, may be empty
     SourceLocation where;
     std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, NullBsdf, TwoSidedBsdf, MaskBsdf, BlendBsdf, PlasticBsdf, NormalMapBsdf,
-                 BumpMapBsdf>
+                 BumpMapBsdf, PrincipledBsdf, PhongBsdf>
         model;
 };
 

@@ -203,6 +203,41 @@ TEST(Agreement, SmoothPlasticMaskAndBlend)
     expect_agreement(scene, {request("path", 256), request("pppm", 48), request("sppm", 48)}, edge_bias);
 }
 
+// Each part of the principled BSDF somewhere: cloth under a coat, brushed metal, tinted ground glass.
+TEST(Agreement, Principled)
+{
+    Scene scene = cornell_box(size);
+    PrincipledBsdf cloth, metal, glass;
+    cloth.base_color = ColorSource(.7f, .3f, .2f);
+    cloth.roughness = .9f;
+    cloth.sheen = 1.0f;
+    cloth.flatness = .5f;
+    cloth.clearcoat = 1.0f;
+    metal.base_color = ColorSource(.9f, .6f, .3f);
+    metal.metallic = .8f;
+    metal.roughness = .6f;
+    metal.anisotropic = .5f;
+    metal.spec_tint = .5f;
+    glass.base_color = ColorSource(.6f, .8f, .9f);
+    glass.roughness = .7f;
+    glass.spec_trans = .7f;
+    scene.shapes.push_back(make_sphere({.5f, -.65f, .3f}, .33f, add_bsdf(scene, cloth)));
+    scene.shapes.push_back(make_sphere({-.4f, .2f, -.3f}, .33f, add_bsdf(scene, metal)));
+    scene.shapes.push_back(make_sphere({-.3f, -.6f, .2f}, .38f, add_bsdf(scene, glass)));
+    expect_agreement(scene, {request("path", 96), request("ptracer", 16), request("pppm", 16)}, edge_bias);
+}
+
+// A lobe that is asked for photons, and one that is followed.
+TEST(Agreement, Phong)
+{
+    Scene scene = cornell_box(size);
+    const uint broad = add_bsdf(scene, PhongBsdf{{.3f, .2f, .1f}, {.6f, .6f, .6f}, 6.0f});
+    const uint narrow = add_bsdf(scene, PhongBsdf{{.1f, .2f, .3f}, {.5f, .6f, .7f}, 60.0f});
+    scene.shapes.push_back(make_sphere({.45f, -.6f, .3f}, .4f, broad));
+    scene.shapes.push_back(make_sphere({-.45f, -.6f, -.3f}, .4f, narrow));
+    expect_agreement(scene, {request("path", 96), request("ptracer", 16), request("pppm", 16)}, edge_bias);
+}
+
 // An 8 x 8 bitmap that is different in each texel, and the relief that it makes of a wall with texture coordinates.
 uint add_relief(Scene& scene, bool normals, uint nested)
 {

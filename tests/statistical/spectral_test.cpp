@@ -96,6 +96,56 @@ TEST_P(SpectralMethods, SameSeedSameBits)
     EXPECT_FALSE(render(scene, r, 5).pixels == render(scene, r, 6).pixels);
 }
 
+// Both coats of plastic, all of the principled BSDF, phong, and a panel in relief, in a grey box whose lamp is out of sight.
+Scene box_of_materials(const ColorSource& color, const ColorSource& gloss, bool nonlinear, float walls)
+{
+    Scene scene = cornell_box(16);
+    scene.film.crop_y = 4;
+    scene.film.crop_height = 12;
+    for (auto& bsdf : scene.bsdfs) bsdf.model = DiffuseBsdf{{walls, walls, walls}};
+    PrincipledBsdf principled;
+    principled.base_color = color;
+    principled.roughness = .6f;
+    principled.metallic = .3f;
+    principled.spec_trans = .4f;
+    principled.spec_tint = .5f;
+    principled.sheen = 1.0f;
+    principled.sheen_tint = .5f;
+    principled.clearcoat = 1.0f;
+    const PlasticBsdf smooth{1.5f, 1.0f, color, gloss, nonlinear}, rough{1.5f, 1.0f, color, gloss, nonlinear, Roughness{false, .3f, .3f}};
+    scene.shapes.push_back(make_sphere({-.6f, -.65f, .3f}, .3f, add_bsdf(scene, smooth)));
+    scene.shapes.push_back(make_sphere({.0f, -.65f, .3f}, .3f, add_bsdf(scene, rough)));
+    scene.shapes.push_back(make_sphere({.6f, -.65f, .3f}, .3f, add_bsdf(scene, principled)));
+    scene.shapes.push_back(make_sphere({-.4f, .3f, -.3f}, .3f, add_bsdf(scene, PhongBsdf{color, gloss, 10.0f})));
+    // Maps of normals are not colours.
+    const uint panel = add_bsdf(scene, DiffuseBsdf{color});
+    scene.shapes.push_back(make_quad({.1f, .0f, -.3f}, {.9f, .0f, -.3f}, {.9f, .8f, -.6f}, {.1f, .8f, -.6f},
+                                     add_bsdf(scene, NormalMapBsdf{{.6f, .4f, .9f}, false, true, panel})));
+    return scene;
+}
+
+TEST(Spectral, GreyMaterialsAreThoseOfRgb)
+{
+    const Scene scene = box_of_materials({.5f, .5f, .5f}, {.3f, .3f, .3f}, true, .6f);
+    expect_same_means({channel_estimates(scene, request("path", 24, false)), channel_estimates(scene, request("path", 24, true))},
+                      {"rgb", "spectral"}, 0.0);
+}
+
+// Light, a ball of one coloured material before black walls, camera: where the BSDF is linear in its colours, as all of these
+// are but nonlinear plastic.
+TEST(Spectral, OneBounceOnMaterialsIsThatOfRgb)
+{
+    const Scene all = box_of_materials({.7f, .5f, .4f}, {.2f, .25f, .3f}, false, .0f);
+    const std::map<std::string, std::string> once{{"max_depth", "2"}, {"rr_depth", "9"}};
+    for (const uint bsdf : {4u, 5u, 6u, 8u}) { // not the box's, nor smooth plastic, where the lamp glares
+        Scene scene = all;
+        scene.shapes.resize(6); // the box and its lamp
+        scene.shapes.push_back(make_sphere({0, -.2f, 0}, .8f, bsdf));
+        expect_same_means({channel_estimates(scene, request("path", 100, false, once)), channel_estimates(scene, request("path", 100, true, once))},
+                          {"rgb", "spectral, bsdf " + std::to_string(bsdf)}, 0.0);
+    }
+}
+
 // A glass ball of strong dispersion and a rough one, in a box.
 Scene dispersive_box(int size)
 {

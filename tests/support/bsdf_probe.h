@@ -37,30 +37,58 @@ inline Bsdf flat_bsdf(decltype(BsdfDescription::model) model)
     return flatten_bsdfs({{"", {}, std::move(model)}})[0];
 }
 
+// What the BSDF code sees of a scene.
+struct ProbeScene {
+    ProbeScene(std::initializer_list<Bsdf> list) : bsdfs(list) {}
+    ProbeScene(std::vector<Bsdf> list) : bsdfs(std::move(list)) {}
+    // The last one is asked.
+    explicit ProbeScene(const std::vector<decltype(BsdfDescription::model)>& models)
+    {
+        std::vector<BsdfDescription> descriptions;
+        for (const auto& model : models) descriptions.push_back({"", {}, model});
+        bsdfs = flatten_bsdfs(descriptions);
+        principled = flatten_principled(descriptions);
+        first = static_cast<uint>(models.size() - 1);
+    }
+
+    std::vector<Bsdf> bsdfs;
+    std::vector<Principled> principled{};
+    std::vector<Texture> textures{};
+    std::vector<uint> texels{};
+    uint first = 0;
+};
+
 class BsdfProbe : public DeviceFixture
 {
 protected:
-    // `count` directions of the BSDF `first` of the list; each by its own random numbers.
-    std::vector<BsdfDraw> draw(const std::vector<Bsdf>& bsdfs, const SurfaceSide& side, uint carries, uint count, uint first = 0)
+    // `count` directions of the BSDF `first`; each by its own random numbers.
+    std::vector<BsdfDraw> draw(const ProbeScene& scene, const SurfaceSide& side, uint carries, uint count)
     {
-        return run(bsdfs, side, carries, count, {}, first);
+        return run(scene, side, carries, count, {});
+    }
+    std::vector<BsdfDraw> draw(ProbeScene scene, const SurfaceSide& side, uint carries, uint count, uint first)
+    {
+        scene.first = first;
+        return run(scene, side, carries, count, {});
     }
 
-    std::vector<BsdfDraw> evaluate(const std::vector<Bsdf>& bsdfs, const SurfaceSide& side, const std::vector<Vec3d>& directions,
+    std::vector<BsdfDraw> evaluate(const ProbeScene& scene, const SurfaceSide& side, const std::vector<Vec3d>& directions,
                                    uint carries = carries_radiance)
     {
         std::vector<Vec3> given;
         for (Vec3d d : directions) given.push_back(to_float(d));
-        return run(bsdfs, side, carries, static_cast<uint>(given.size()), given, 0);
+        return run(scene, side, carries, static_cast<uint>(given.size()), given);
     }
 
 private:
-    std::vector<BsdfDraw> run(const std::vector<Bsdf>& bsdfs, const SurfaceSide& side, uint carries, uint count, const std::vector<Vec3>& given, uint first)
+    template <class T> Buffer<T> upload_some(const std::vector<T>& data) { return upload(data.empty() ? std::vector<T>(1) : data); }
+
+    std::vector<BsdfDraw> run(const ProbeScene& scene, const SurfaceSide& side, uint carries, uint count, const std::vector<Vec3>& given)
     {
-        const auto shapes = upload(std::vector<Shape>{{first, NO_LIGHT, 0, 0}});
+        const auto shapes = upload(std::vector<Shape>{{scene.first, NO_LIGHT, 0, 0}});
         const auto output = allocate<float>(std::size_t(10) * count);
-        const auto directions = upload(given.empty() ? std::vector<Vec3>(1) : given);
-        kernel_(count, upload(bsdfs), shapes, to_float(side.outgoing), to_float(side.geometric_normal), to_float(side.shading_normal), carries, count,
+        const auto directions = upload_some(given);
+        kernel_(count, upload(scene.bsdfs), upload_some(scene.principled), upload_some(scene.textures), upload_some(scene.texels), shapes, to_float(side.outgoing), to_float(side.geometric_normal), to_float(side.shading_normal), carries, count,
                 uint(given.empty() ? 0 : 1), directions, output);
         const auto values = output.download();
         std::vector<BsdfDraw> samples(count);
@@ -73,13 +101,17 @@ private:
 
     Kernel kernel_ = test_kernel(R"(
         #include "scene/bsdf.h"
-        __kernel void test(__global const Bsdf* bsdfs, __global const Shape* shapes, Vec3 outgoing, Vec3 geometric_normal, Vec3 shading_normal, uint carries,
+        __kernel void test(__global const Bsdf* bsdfs, __global const Principled* principled, __global const Texture* textures,
+                           __global const uint* texels, __global const Shape* shapes, Vec3 outgoing, Vec3 geometric_normal, Vec3 shading_normal, uint carries,
                            uint count, uint given, __global const Vec3* directions, __global float* output)
         {
             uint i = get_global_id(0);
             if (i >= count) return;
             SurfaceView scene;
             scene.bsdfs = bsdfs;
+            scene.principled = principled;
+            scene.textures = textures;
+            scene.texels = texels;
             scene.shapes = shapes;
             Surface surface;
             surface.position = (float3)(0.0f);

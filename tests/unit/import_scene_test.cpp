@@ -205,6 +205,46 @@ TEST(ImportScene, PlasticAndItsDefaults)
     EXPECT_FLOAT_EQ(rough.int_ior, 1.8f);
 }
 
+TEST(ImportScene, PrincipledAndItsDefaults)
+{
+    const auto loaded = load_with(R"(<shape type="sphere"><bsdf type="principled"/></shape>
+        <shape type="sphere"><bsdf type="principled"><rgb name="base_color" value="0.1, 0.2, 0.3"/><float name="specular" value="0.8"/>
+        <float name="clearcoat_gloss" value="0.6"/><texture type="checkerboard" name="metallic"/></bsdf></shape>
+        <shape type="sphere"><bsdf type="principled"><float name="eta" value="1"/><float name="spec_trans" value="0.5"/></bsdf></shape>)");
+    const auto& plain = bsdf_of<PrincipledBsdf>(loaded, 0);
+    expect_near(plain.base_color.value, {0.5f, 0.5f, 0.5f}, 0);
+    EXPECT_FLOAT_EQ(plain.roughness.value, 0.5f);
+    EXPECT_FLOAT_EQ(plain.eta, 1.5f) << "of specular 0.5";
+    for (const NumberSource& number : {plain.anisotropic, plain.metallic, plain.spec_trans, plain.spec_tint, plain.sheen, plain.sheen_tint,
+                                       plain.flatness, plain.clearcoat, plain.clearcoat_gloss})
+        EXPECT_EQ(number.value, 0.0f);
+    EXPECT_FALSE(plain.transmits());
+    const auto& set = bsdf_of<PrincipledBsdf>(loaded, 1);
+    expect_near(set.base_color.value, {0.1f, 0.2f, 0.3f}, 1e-7f);
+    EXPECT_NEAR(std::pow((set.eta - 1.0f) / (set.eta + 1.0f), 2.0f), 0.08f * 0.8f, 1e-6f);
+    EXPECT_FLOAT_EQ(set.clearcoat_gloss.value, 0.6f);
+    EXPECT_TRUE(set.metallic.texture);
+    EXPECT_FLOAT_EQ(bsdf_of<PrincipledBsdf>(loaded, 2).eta, 1.001f) << "glass has an interface";
+    EXPECT_TRUE(bsdf_of<PrincipledBsdf>(loaded, 2).transmits());
+}
+
+TEST(ImportScene, PhongReflectsNoMoreThanItGets)
+{
+    const auto loaded = load_with(R"(<shape type="sphere"><bsdf type="phong"/></shape><shape type="sphere"><bsdf type="phong">
+        <rgb name="diffuse_reflectance" value="0.2, 0.6, 0.2"/><rgb name="specular_reflectance" value="0.1, 0.6, 0.3"/>
+        <float name="exponent" value="7"/></bsdf></shape>)");
+    const auto& plain = bsdf_of<PhongBsdf>(loaded, 0);
+    expect_near(plain.diffuse_reflectance.value, {0.5f, 0.5f, 0.5f}, 0);
+    expect_near(plain.specular_reflectance.value, {0.2f, 0.2f, 0.2f}, 0);
+    EXPECT_EQ(plain.exponent.value, 30.0f);
+    const auto& scaled = bsdf_of<PhongBsdf>(loaded, 1);
+    expect_near(scaled.diffuse_reflectance.value, {0.165f, 0.495f, 0.165f}, 1e-6f);
+    expect_near(scaled.specular_reflectance.value, {0.0825f, 0.495f, 0.2475f}, 1e-6f);
+    EXPECT_EQ(scaled.exponent.value, 7.0f);
+    ASSERT_EQ(loaded.warnings.size(), 1u);
+    EXPECT_THAT(loaded.warnings[0], ::testing::HasSubstr("add up to more than 1"));
+}
+
 // Probabilities along the tree of blends are the weights, and black takes what is left of 1.
 double weight_in(const Scene& scene, uint bsdf, float red)
 {

@@ -169,6 +169,15 @@ TEST(SceneWriter, SharedAndNestedMaterials)
          R"(<bsdf type="conductor"><rgb name="eta" value=".2, .9, 1.1"/><rgb name="k" value="3.9, 2.4, 2.2"/><float name="ext_eta" value="1.33"/></bsdf>)",
          R"(<bsdf type="plastic"><float name="int_ior" value="1.9"/><boolean name="nonlinear" value="true"/></bsdf>)",
          R"(<bsdf type="roughplastic"><float name="alpha" value=".3"/><rgb name="specular_reflectance" value=".1, .2, .3"/></bsdf>)",
+         R"(<bsdf type="principled"/>)", R"(<bsdf type="principled"><float name="specular" value=".37"/><float name="spec_trans" value=".3"/></bsdf>)",
+         R"(<bsdf type="principled"><rgb name="base_color" value=".1, .2, .3"/><float name="roughness" value=".21"/><float name="anisotropic" value=".22"/>
+<float name="metallic" value=".23"/><float name="spec_trans" value=".24"/><float name="spec_tint" value=".25"/><float name="sheen" value=".26"/>
+<float name="sheen_tint" value=".27"/><float name="flatness" value=".28"/><float name="clearcoat" value=".29"/>
+<float name="clearcoat_gloss" value=".31"/><float name="eta" value=".7"/></bsdf>)",
+         R"(<bsdf type="principled"><texture name="clearcoat" type="checkerboard"/><texture name="roughness" type="checkerboard">
+<rgb name="color0" value=".7"/></texture><texture name="base_color" type="checkerboard"><rgb name="color1" value=".3, .2, .1"/></texture></bsdf>)",
+         R"(<bsdf type="phong"><rgb name="specular_reflectance" value=".1, .2, .3"/><float name="exponent" value="12.3"/></bsdf>)",
+         R"(<bsdf type="phong"><texture name="exponent" type="checkerboard"/><texture name="diffuse_reflectance" type="checkerboard"/></bsdf>)",
          R"(<bsdf type="mixturebsdf"><string name="weights" value=".2, .3, .4"/><bsdf type="diffuse"/><bsdf type="plastic"/><bsdf type="null"/></bsdf>)",
          R"(<bsdf type="bumpmap"><float name="scale" value="-.3"/><texture name="t" type="checkerboard"/><bsdf type="diffuse"/></bsdf>)",
          R"(<bsdf type="normalmap"><boolean name="use_shadowing_function" value="false"/><texture name="t" type="checkerboard"/><bsdf type="diffuse"/></bsdf>)",
