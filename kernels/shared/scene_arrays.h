@@ -7,6 +7,7 @@
 #include "shared/environment.h"
 #include "shared/geometry.h"
 #include "shared/light.h"
+#include "shared/light_tree.h"
 #include "shared/ray.h"
 #include "shared/texture.h"
 #include "shared/vec2.h"
@@ -44,6 +45,7 @@ SHARED_SIZE(SceneGlobals, 152);
     X(Bsdf, bsdfs)                                                                                 \
     X(Light, lights)                                                                               \
     X(AliasEntry, light_alias)                                                                     \
+    X(LightNode, light_tree)                                                                       \
     X(LightProjection, light_projections)                                                          \
     X(EnvironmentMap, environment_maps)                                                            \
     X(AliasEntry, environment_alias)
