@@ -3,6 +3,7 @@
 #include "import/preimage.h"
 #include "math/direction.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace sundog
@@ -31,6 +32,9 @@ void write_filter(ObjectWriter film, const ReconstructionFilter& filter)
         mitchell.number("c", filter.c);
         return;
     }
+    case FilterKind::lanczos:
+        film.object("rfilter", "lanczos").integer("lobes", std::lround(filter.radius));
+        return;
     }
     throw std::logic_error("a reconstruction filter that cannot be written");
 }

@@ -93,7 +93,7 @@ struct NumberSource {
     NumberSource(float factor, uint index) : value(factor), texture(index) {}
 };
 
-enum class TexelFormat { srgb8, linear8, half, float32 }; // as TEXELS_... of kernels/shared/texture.h; float32 of environments alone
+enum class TexelFormat { srgb8, linear8, half, float32 }; // as TEXELS_... of kernels/shared/texture.h
 enum class WrapMode { repeat, mirror, clamp };
 enum class TextureFilter { nearest, bilinear };
 
@@ -320,7 +320,7 @@ struct Sensor {
     float focus_distance = 0.0f; // along axis_z
 };
 
-enum class FilterKind { box, tent, gaussian, mitchell };
+enum class FilterKind { box, tent, gaussian, mitchell, lanczos };
 
 struct ReconstructionFilter {
     FilterKind kind = FilterKind::gaussian;
@@ -328,6 +328,7 @@ struct ReconstructionFilter {
     float stddev = 0.5f; // gaussian
     float b = 1.0f / 3.0f; // mitchell
     float c = 1.0f / 3.0f;
+    // lanczos: its radius is its number of lobes
 };
 
 struct Film {
