@@ -57,7 +57,7 @@ static inline float light_importance(__global const LightNode* node, float3 posi
     const float3 to_center = unpack(node->center) - position;
     const float distance_squared = dot(to_center, to_center);
     const float radius_squared = node->radius * node->radius;
-    const float strength = fmin(node->intensity / fmax(fmax(distance_squared, radius_squared), 1e-30f), 1e30f);
+    const float strength = fmin(node->intensity / fmax(fmax(distance_squared, radius_squared / 6.0f), 1e-30f), 1e30f);
     if (distance_squared <= radius_squared) return strength; // all around
     const float3 direction = to_center * rsqrt(distance_squared);
     // Of the angle under which the sphere is seen, and what exceeds it.
