@@ -46,11 +46,4 @@ static inline void prefetch256(__global const void* address)
 #endif
 }
 
-static inline float lowest8(float8 a)
-{
-    const float4 halves = a.lo < a.hi ? a.lo : a.hi;
-    const float2 quarters = halves.lo < halves.hi ? halves.lo : halves.hi;
-    return quarters.x < quarters.y ? quarters.x : quarters.y;
-}
-
 #endif

@@ -78,18 +78,22 @@ static inline bool intersect_triangle_block(__global const BvhBlock* block, cons
     const float8 w = edge_function(bx, by, ax, ay);
     const float8 lowest = min8(min8(u, v), w);
     const float8 highest = max8(max8(u, v), w);
-    const int8 inside = (lowest >= 0.0f) | (highest <= 0.0f);
-    if (mask8(inside) == 0) return false;
+    const int inside = mask8(lowest >= 0.0f) | mask8(highest <= 0.0f);
+    if (inside == 0) return false;
 
     const float8 determinant = u + v + w; // 0: seen edge-on, or degenerate
     const float8 inverse = 1.0f / determinant;
     const float8 t = (u * az + v * bz + w * cz) * shear->shear_z * inverse;
-    const int8 accepted = inside & (determinant != 0.0f) & (t > 0.0f) & (t <= hit->t);
-    if (mask8(accepted) == 0) return false;
+    int accepted = inside & mask8((determinant != 0.0f) & (t > 0.0f) & (t <= hit->t));
+    if (accepted == 0) return false;
     if (any) return true;
 
-    const float nearest = lowest8(accepted ? t : (float8)(INFINITY));
-    const int lane = first_lane(mask8(accepted & (t == nearest)));
+    float distances[BVH_WIDTH];
+    vstore8(t, 0, distances);
+    int lane = first_lane(accepted);
+    for (accepted &= accepted - 1; accepted != 0; accepted &= accepted - 1)
+        if (distances[first_lane(accepted)] < distances[lane]) lane = first_lane(accepted);
+    const float nearest = distances[lane];
     const uint id = block->id[lane];
     if (nearest == hit->t && id >= hit->primitive) return false;
     float second[BVH_WIDTH], third[BVH_WIDTH];

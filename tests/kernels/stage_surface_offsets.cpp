@@ -1,11 +1,9 @@
 // Surfaces at hits, at all scales: the point lies on the surface, and a ray that starts there neither hits the surface
 // again nor skips what lies behind it.
-#include "stages/device_scene.h"
-#include "support/device_fixture.h"
+#include "kernels/surface_fixture.h"
 #include "support/double3.h"
 #include "support/scene_builder.h"
 
-#include <numeric>
 #include <random>
 
 namespace sundog
@@ -13,68 +11,9 @@ namespace sundog
 namespace
 {
 
-class SurfaceOffsets : public DeviceFixture, public testing::WithParamInterface<double>
+class SurfaceOffsets : public SurfaceFixture, public testing::WithParamInterface<double>
 {
 protected:
-    std::vector<Hit> trace(const DeviceScene& scene, const Buffer<Ray>& rays)
-    {
-        const uint count = static_cast<uint>(rays.size());
-        std::vector<uint> active(count);
-        std::iota(active.begin(), active.end(), 0u);
-        const auto hits = allocate<Hit>(count);
-        Kernel(device_, "trace_closest", "Trace", scene.trace_options())(count, scene.geometry(), rays, hits, upload(active),
-                                                                         upload(std::vector{count}));
-        return hits.download();
-    }
-
-    struct Continued {
-        std::vector<Hit> first, reflected, passed;
-        std::vector<Vec3> positions, geometric_normals, shading_normals, outgoing;
-    };
-
-    // What rays hit, and what rays from there hit, on the near side (mirrored) and on the far side (straight on).
-    Continued follow(const DeviceScene& scene, const std::vector<Ray>& rays)
-    {
-        const uint count = static_cast<uint>(rays.size());
-        const Kernel kernel = test_kernel(R"(
-            #include "scene/surface.h"
-            __kernel void test(SURFACE_PARAMETERS, uint count, __global const Ray* rays, __global const Hit* hits, __global Vec3* vectors, __global Ray* reflected,
-                               __global Ray* passed)
-            {
-                uint i = get_global_id(0);
-                if (i >= count) return;
-                reflected[i] = passed[i] = no_ray();
-                if (hits[i].primitive == NO_PRIMITIVE) return;
-                const SurfaceView scene = SURFACE_VIEW;
-                const Surface surface = surface_at(&scene, rays[i], hits[i]);
-                const float3 n = surface.geometric_normal, o = surface.outgoing;
-                vectors[i] = pack(surface.position);
-                vectors[count + i] = pack(n);
-                vectors[2u * count + i] = pack(surface.shading_normal);
-                vectors[3u * count + i] = pack(o);
-                reflected[i] = ray_from(&surface, 2.0f * dot(o, n) * n - o);
-                passed[i] = ray_from(&surface, -o);
-            })");
-        const auto device_rays = upload(rays);
-        Continued result{.first = trace(scene, device_rays),
-                         .reflected = {},
-                         .passed = {},
-                         .positions = {},
-                         .geometric_normals = {},
-                         .shading_normals = {},
-                         .outgoing = {}};
-        const auto vectors = allocate<Vec3>(std::size_t(4) * count);
-        const auto reflected = allocate<Ray>(count), passed = allocate<Ray>(count);
-        kernel(count, scene.surfaces(), count, device_rays, upload(result.first), vectors, reflected, passed);
-        result.reflected = trace(scene, reflected);
-        result.passed = trace(scene, passed);
-        result.positions = vectors.download(0, count);
-        result.geometric_normals = vectors.download(count, count);
-        result.shading_normals = vectors.download(std::size_t(2) * count, count);
-        result.outgoing = vectors.download(std::size_t(3) * count, count);
-        return result;
-    }
-
     // Rays from around towards points near `center`.
     static std::vector<Ray> rays_at(Vec3d center, double size)
     {
@@ -107,7 +46,7 @@ TEST_P(SurfaceOffsets, ConvexBodiesAreLeftAndEntered)
         const bool mesh = std::holds_alternative<TriangleMesh>(host.shapes[0].geometry);
         SCOPED_TRACE(mesh ? "tetrahedron" : "sphere");
         const DeviceScene scene(device_, host);
-        const Continued result = follow(scene, rays_at(center, scale));
+        const Surfaces result = follow(scene, rays_at(center, scale));
         std::size_t hits = 0, missed_back = 0;
         for (std::size_t i = 0; i < result.first.size(); ++i) {
             if (result.first[i].primitive == NO_PRIMITIVE) continue;
@@ -146,7 +85,7 @@ TEST_P(SurfaceOffsets, TubesAreLeftFromOutside)
                         .axis_y = to_float(frame.t),
                         .axis_z = to_float(frame.n)};
     const DeviceScene scene(device_, SceneBuilder().shape(tube).emitter(PointEmitter{{0, 0, 0}, {1, 1, 1}}).scene);
-    const Continued result = follow(scene, rays_at(center, scale));
+    const Surfaces result = follow(scene, rays_at(center, scale));
     std::size_t outside = 0, inside = 0;
     for (std::size_t i = 0; i < result.first.size(); ++i) {
         if (result.first[i].primitive == NO_PRIMITIVE) continue;
@@ -182,7 +121,7 @@ TEST_P(SurfaceOffsets, ThinGapsStayOpen)
         const Vec3d direction = normalized(Vec3d(uniform(random), uniform(random), -0.7));
         rays.push_back({to_float(target - direction * (2.0 * scale)), INFINITY, to_float(direction), 0});
     }
-    const Continued result = follow(scene, rays);
+    const Surfaces result = follow(scene, rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ASSERT_EQ(result.first[i].primitive, ANALYTIC_BIT | 0u) << i;
         ASSERT_EQ(result.reflected[i].primitive, NO_PRIMITIVE) << i;
@@ -198,7 +137,7 @@ TEST_P(SurfaceOffsets, ShadingNormalsStayOnTheirSide)
     mesh.normals = {to_float(normalized({-1, -1, 0.5})), to_float(normalized({1, -1, 0.5})), to_float(normalized({1, 1, 0.5})),
                     to_float(normalized({-1, 1, 0.5}))};
     const DeviceScene scene(device_, SceneBuilder().shape(mesh).emitter(PointEmitter{{0, 0, 0}, {1, 1, 1}}).scene);
-    const Continued result = follow(scene, rays_at(Vec3d(0.5, 0.5, 0) * scale, 0.5 * scale));
+    const Surfaces result = follow(scene, rays_at(Vec3d(0.5, 0.5, 0) * scale, 0.5 * scale));
     int smooth = 0;
     for (std::size_t i = 0; i < result.first.size(); ++i) {
         if (result.first[i].primitive == NO_PRIMITIVE) continue;

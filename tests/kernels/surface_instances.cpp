@@ -1,11 +1,9 @@
 // Surfaces of instances: position, normals, tangents, and offsets that rays need to leave them.
-#include "stages/device_scene.h"
-#include "support/device_fixture.h"
+#include "kernels/surface_fixture.h"
 #include "support/double3.h"
 #include "support/instanced_scene.h"
 #include "support/scene_builder.h"
 
-#include <numeric>
 #include <random>
 
 namespace sundog
@@ -13,62 +11,8 @@ namespace sundog
 namespace
 {
 
-class SurfaceInstances : public DeviceFixture
+class SurfaceInstances : public SurfaceFixture
 {
-protected:
-    struct Surfaces {
-        std::vector<Hit> first, reflected, passed;
-        std::vector<Vec3> positions, geometric_normals, shading_normals, dpdu, dpdv;
-    };
-
-    std::vector<Hit> trace(const DeviceScene& scene, const Buffer<Ray>& rays)
-    {
-        const uint count = static_cast<uint>(rays.size());
-        std::vector<uint> active(count);
-        std::iota(active.begin(), active.end(), 0u);
-        const auto hits = allocate<Hit>(count);
-        Kernel(device_, "trace_closest", "Trace", scene.trace_options())(count, scene.geometry(), rays, hits, upload(active),
-                                                                         upload(std::vector{count}));
-        return hits.download();
-    }
-
-    // What rays hit, and what rays from there hit, mirrored and straight on.
-    Surfaces follow(const DeviceScene& scene, const std::vector<Ray>& rays)
-    {
-        const uint count = static_cast<uint>(rays.size());
-        const Kernel kernel = test_kernel(R"(
-            #define HAS_INSTANCES 1
-            #include "scene/surface.h"
-            __kernel void test(SURFACE_PARAMETERS, uint count, __global const Ray* rays, __global const Hit* hits, __global Vec3* vectors, __global Ray* reflected,
-                               __global Ray* passed)
-            {
-                uint i = get_global_id(0);
-                if (i >= count) return;
-                reflected[i] = passed[i] = no_ray();
-                if (hits[i].primitive == NO_PRIMITIVE) return;
-                const SurfaceView scene = SURFACE_VIEW;
-                const Surface surface = surface_at(&scene, rays[i], hits[i]);
-                const float3 n = surface.geometric_normal, o = surface.outgoing;
-                vectors[i] = pack(surface.position);
-                vectors[count + i] = pack(n);
-                vectors[2u * count + i] = pack(surface.shading_normal);
-                vectors[3u * count + i] = pack(surface.dpdu);
-                vectors[4u * count + i] = pack(surface.dpdv);
-                reflected[i] = ray_from(&surface, 2.0f * dot(o, n) * n - o);
-                passed[i] = ray_from(&surface, -o);
-            })");
-        const auto device_rays = upload(rays);
-        Surfaces result;
-        result.first = trace(scene, device_rays);
-        const auto vectors = allocate<Vec3>(std::size_t(5) * count);
-        const auto reflected = allocate<Ray>(count), passed = allocate<Ray>(count);
-        kernel(count, scene.surfaces(), count, device_rays, upload(result.first), vectors, reflected, passed);
-        result.reflected = trace(scene, reflected);
-        result.passed = trace(scene, passed);
-        std::vector<Vec3>* parts[] = {&result.positions, &result.geometric_normals, &result.shading_normals, &result.dpdu, &result.dpdv};
-        for (std::size_t i = 0; i < 5; i++) *parts[i] = vectors.download(i * count, count);
-        return result;
-    }
 };
 
 TriangleMesh tetrahedron()
@@ -112,7 +56,8 @@ TEST_F(SurfaceInstances, ConvexBodiesAreLeftAndEntered)
 {
     for (const bool mesh : {true, false}) {
         for (const Transform& to_world : placements()) {
-            SCOPED_TRACE(std::string(mesh ? "tetrahedron " : "sphere ") + std::to_string(to_world.m[0][0]) + " " + std::to_string(to_world.m[0][3]));
+            SCOPED_TRACE(std::string(mesh ? "tetrahedron " : "sphere ") + std::to_string(to_world.m[0][0]) + " " +
+                         std::to_string(to_world.m[0][3]));
             SceneBuilder builder;
             if (mesh)
                 builder.shape(tetrahedron());
@@ -148,7 +93,8 @@ TEST_F(SurfaceInstances, ConvexBodiesAreLeftAndEntered)
                 const double tolerance = 1e-5 * (1.0 + far / size);
                 ASSERT_LT(std::abs(mesh ? dot(expected, p) - 1.0 / std::sqrt(3.0) : length(p) - 1.0), tolerance * 20.0);
                 // Tangents lie in the surface.
-                for (const Vec3d tangent : {Vec3d(result.dpdu[i]), Vec3d(result.dpdv[i])}) ASSERT_LT(std::abs(dot(tangent, normal)), 1e-3 * length(tangent));
+                for (const Vec3d tangent : {Vec3d(result.dpdu[i]), Vec3d(result.dpdv[i])})
+                    ASSERT_LT(std::abs(dot(tangent, normal)), 1e-3 * length(tangent));
             }
             EXPECT_GT(hits, 3000u);
             EXPECT_LT(static_cast<double>(missed_back), 0.01 * static_cast<double>(hits));

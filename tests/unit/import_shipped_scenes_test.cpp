@@ -47,10 +47,11 @@ TEST(ImportShippedScenes, AnalyticOnesHoldAnAnswerAndStayQuick)
     }
 }
 
-TEST(ImportShippedScenes, GalleryMeshesAreSmall)
+TEST(ImportShippedScenes, GalleryFilesAreSmall)
 {
-    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SUNDOG_SOURCE_DIR) / "scenes/gallery/meshes"))
-        EXPECT_LT(entry.file_size(), 1u << 20) << entry.path();
+    for (const char* folder : {"meshes", "textures"})
+        for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SUNDOG_SOURCE_DIR) / "scenes/gallery" / folder))
+            EXPECT_LT(entry.file_size(), 1u << 20) << entry.path();
 }
 
 } // namespace
