@@ -15,6 +15,6 @@ std::vector<LightNode> build_light_tree(const FlatScene& flat);
 enum class LightSelection { automatic, tree, power };
 
 // Measured: docs/lights.md.
-constexpr std::size_t lights_for_a_tree = 8;
+constexpr std::size_t lights_for_a_tree = 4;
 
 } // namespace sundog

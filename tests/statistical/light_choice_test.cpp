@@ -108,9 +108,9 @@ Scene furnished_box()
 TEST(LightChoice, TreeAndPowerAgree)
 {
     const Scene scene = furnished_box();
-    expect_agreement({{"path by tree", &scene, request("path", 128, {{"light_choice", "tree"}})},
-                      {"path by power", &scene, request("path", 128, {{"light_choice", "power"}})},
-                      {"pppm by tree", &scene, request("pppm", 32, {{"light_choice", "tree"}})}},
+    expect_agreement({{"path by tree", &scene, request("path", 48, {{"light_choice", "tree"}})},
+                      {"path by power", &scene, request("path", 48, {{"light_choice", "power"}})},
+                      {"pppm by tree", &scene, request("pppm", 12, {{"light_choice", "tree"}})}},
                      0.01);
 }
 
@@ -178,8 +178,8 @@ TEST(LightChoice, AWeakLampsCausticHasItsPhotons)
     const RenderRequest photons = request("ptracer", 24);
     expect_agreement({{"the lamp alone", &alone, photons},
                       {"beside a strong light", &one, photons},
-                      {"beside its 64 parts", &many, request("ptracer", 96)},
-                      {"pppm beside a strong light", &one, request("pppm", 48, {{"direct", "photons"}})}},
+                      {"beside its 64 parts", &many, request("ptracer", 64)},
+                      {"pppm beside a strong light", &one, request("pppm", 16, {{"direct", "photons"}})}},
                      0.01, 0.15);
     // The caustic: the floor below the ball. 819 of 8192 paths are the lamp's with a floor of its own, 13 with a 65th.
     const auto deviation = [&](const Scene& scene) {
@@ -225,20 +225,20 @@ Scene textured_spot_and_panel_box()
 TEST(LightChoice, MethodsAgreeOnAProjectorsImage)
 {
     const Scene scene = projector_box();
-    expect_agreement({{"path", &scene, request("path", 96)},
-                      {"ptracer", &scene, request("ptracer", 32)},
-                      {"pppm", &scene, request("pppm", 32)},
-                      {"pppm with photons alone", &scene, request("pppm", 48, {{"direct", "photons"}})}},
+    expect_agreement({{"path", &scene, request("path", 48)},
+                      {"ptracer", &scene, request("ptracer", 16)},
+                      {"pppm", &scene, request("pppm", 12)},
+                      {"pppm with photons alone", &scene, request("pppm", 16, {{"direct", "photons"}})}},
                      0.01);
 }
 
 TEST(LightChoice, MethodsAgreeOnTexturedLamps)
 {
     const Scene scene = textured_spot_and_panel_box();
-    expect_agreement({{"path by tree", &scene, request("path", 96, {{"light_choice", "tree"}})},
-                      {"path", &scene, request("path", 96)},
-                      {"ptracer", &scene, request("ptracer", 32)},
-                      {"pppm", &scene, request("pppm", 32)}},
+    expect_agreement({{"path by tree", &scene, request("path", 48, {{"light_choice", "tree"}})},
+                      {"path", &scene, request("path", 48)},
+                      {"ptracer", &scene, request("ptracer", 16)},
+                      {"pppm", &scene, request("pppm", 12)}},
                      0.01);
 }
 
@@ -256,7 +256,7 @@ TEST(SpectralLights, AreThoseOfRgbOnGreyWalls)
         return scene;
     };
     for (const char* method : {"path", "pppm"}) {
-        const RenderRequest base = request(method, 16);
+        const RenderRequest base = request(method, method == std::string("path") ? 24 : 8);
         for (Scene scene : {projector_box(), textured_spot_and_panel_box(), open_box()}) {
             for (auto& bsdf : scene.bsdfs) bsdf.model = DiffuseBsdf{{.6f, .6f, .6f}};
             std::vector<std::vector<Estimate>> means;
@@ -280,7 +280,7 @@ TEST(SpectralLights, AreThoseOfRgbOnGreyWalls)
             for (std::size_t c = 0; c < 3; c++) {
                 const double error = std::hypot(means[0][c].standard_error, means[1][c].standard_error);
                 EXPECT_NEAR(means[0][c].mean, means[1][c].mean, quantile * error) << method << ", channel " << c;
-                EXPECT_LT(error, 0.03 * means[0][c].mean) << method << ", channel " << c;
+                EXPECT_LT(error, 0.06 * means[0][c].mean) << method << ", channel " << c;
             }
         }
     }
