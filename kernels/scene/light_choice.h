@@ -57,6 +57,7 @@ static inline float light_importance(__global const LightNode* node, float3 posi
     const float3 to_center = unpack(node->center) - position;
     const float distance_squared = dot(to_center, to_center);
     const float radius_squared = node->radius * node->radius;
+    // From within: 6 / r^2 is about the mean of 1 / d^2, at its centre, over a cube of half diagonal r.
     const float strength = fmin(node->intensity / fmax(fmax(distance_squared, radius_squared / 6.0f), 1e-30f), 1e30f);
     if (distance_squared <= radius_squared) return strength; // all around
     const float3 direction = to_center * rsqrt(distance_squared);

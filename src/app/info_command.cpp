@@ -51,6 +51,16 @@ std::string integrator_text(const SceneSummary& summary)
     return text;
 }
 
+// Empty where nothing moves.
+std::string motion_text(const SceneSummary& summary)
+{
+    if (!summary.camera_moves && summary.moving_instances == 0) return "";
+    std::string text = summary.camera_moves ? "camera" : "";
+    if (summary.moving_instances > 0)
+        text += fmt::format("{}{} of {} instances", text.empty() ? "" : ", ", summary.moving_instances, summary.instances);
+    return text + fmt::format("; shutter {:g} to {:g}", summary.shutter.open, summary.shutter.close);
+}
+
 // What the importer did with the file beyond reading it.
 struct LoadReport {
     std::vector<Warning> warnings;
@@ -83,6 +93,7 @@ void print_text(const SceneSummary& summary, const LoadReport& report)
     line("shapes", counts_text(summary.shapes) + fmt::format("; {} triangles", summary.triangles));
     if (summary.instances > 0)
         line("instances", fmt::format("{} of {} groups; {} triangles with their copies", summary.instances, summary.groups, summary.triangles_with_copies));
+    if (const std::string motion = motion_text(summary); !motion.empty()) line("motion", motion);
     line("bsdfs", counts_text(summary.bsdfs));
     line("emitters", counts_text(summary.emitters) + fmt::format("; {} lights to sample", summary.lights));
     line("bounds", summary.bounds.empty() ? "empty" : point_text(summary.bounds.lower) + " to " + point_text(summary.bounds.upper));
@@ -109,6 +120,8 @@ void print_json(const SceneSummary& summary, const LoadReport& report)
     json["groups"] = summary.groups;
     json["instances"] = summary.instances;
     json["triangles_with_copies"] = summary.triangles_with_copies;
+    json["shutter"] = {{"open", summary.shutter.open}, {"close", summary.shutter.close}};
+    json["moving"] = {{"camera", summary.camera_moves}, {"instances", summary.moving_instances}};
     json["bsdfs"] = summary.bsdfs;
     json["emitters"] = summary.emitters;
     json["lights"] = summary.lights;

@@ -99,6 +99,9 @@ SceneSummary summarize(const Scene& scene)
     summary.triangles_with_copies = scene.triangle_count_with_copies();
     summary.groups = scene.groups.size();
     summary.instances = scene.instances.size();
+    summary.shutter = scene.sensor.shutter;
+    summary.camera_moves = flat.sensor_motion.has_value();
+    summary.moving_instances = flat.instance_motions.size();
     summary.lights = flat.lights.size();
     summary.bounds = scene.bounds();
     summary.width = scene.film.crop_width;

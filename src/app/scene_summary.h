@@ -18,8 +18,11 @@ struct SceneSummary {
     std::size_t triangles_with_copies = 0; // seen: those of groups once an instance
     std::size_t groups = 0;
     std::size_t instances = 0;
+    Shutter shutter;
+    bool camera_moves = false;
+    std::size_t moving_instances = 0; // moving shapes included, each in a group of its own
     std::size_t lights = 0; // as they are sampled: one a primitive of an emissive shape
-    Bounds bounds;
+    Bounds bounds; // of what is seen at any time
     int width = 0; // pixels of the image (the crop)
     int height = 0;
     std::string filter;

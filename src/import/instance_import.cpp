@@ -1,5 +1,6 @@
 #include "import/instance_import.h"
 
+#include "import/animation_import.h"
 #include "import/shape_import.h"
 
 namespace sundog
@@ -51,7 +52,7 @@ void InstanceImporter::import_instance(const XmlElement& element)
     InstanceDescription instance;
     instance.id = id_of(element);
     instance.where = element.where;
-    instance.to_world = reader.transform("to_world");
+    instance.to_world = read_to_world(reader, scene_.sensor.shutter);
     reader.finish();
     instance.group = import_group(*group->object);
     scene_.instances.push_back(std::move(instance));
@@ -77,6 +78,10 @@ void InstanceImporter::import_member(const NestedObject& member, uint group)
         throw SceneError(member.where, "a shapegroup cannot hold a shapegroup or an instance: put their shapes into it themselves");
     if (const auto emitter = ObjectReader(*member.object, index_).single("emitter"))
         throw SceneError(emitter->where, "a light cannot be inside a shapegroup: give each copy that emits a shape of its own");
+    if (ObjectReader reader(*member.object, index_);
+        reader.animation("to_world").moves(scene_.sensor.shutter.open, scene_.sensor.shutter.close))
+        throw SceneError(reader.where_of("to_world"),
+                         "a shape inside a shapegroup cannot move by itself: give the <animation> to its instances");
     const std::size_t first = scene_.shapes.size();
     import_shape(*member.object, index_, bsdfs_, textures_, scene_);
     for (std::size_t i = first; i < scene_.shapes.size(); i++) scene_.shapes[i].group = group;

@@ -15,7 +15,7 @@ namespace
 
 bool is_value_tag(std::string_view tag)
 {
-    constexpr std::string_view tags[] = {"boolean", "integer", "float", "string", "point", "vector", "transform"};
+    constexpr std::string_view tags[] = {"boolean", "integer", "float", "string", "point", "vector", "transform", "animation"};
     return std::find(std::begin(tags), std::end(tags), tag) != std::end(tags) || is_color_tag(tag);
 }
 
@@ -23,13 +23,13 @@ void check_value_element(const XmlElement& value)
 {
     if (value.tag == "point" || value.tag == "vector")
         check_attributes(value, {"name"}, {"x", "y", "z", "value"});
-    else if (value.tag == "transform")
+    else if (value.tag == "transform" || value.tag == "animation")
         check_attributes(value, {"name"}, {});
     else if (value.tag == "boolean" || value.tag == "integer" || value.tag == "float" || value.tag == "string")
         check_attributes(value, {"name", "value"}, {});
     else if (!value.attribute("name"))
         throw SceneError(value.where, "<" + value.tag + "> needs the attribute name");
-    const bool may_nest = value.tag == "transform" || (value.tag == "spectrum" && value.attribute("type"));
+    const bool may_nest = value.tag == "transform" || value.tag == "animation" || (value.tag == "spectrum" && value.attribute("type"));
     if (!may_nest && !value.children.empty()) throw SceneError(value.where, "<" + value.tag + "> cannot have elements inside");
 }
 
@@ -151,8 +151,20 @@ std::optional<Vec3> ObjectReader::vector(std::string_view name)
 
 Transform ObjectReader::transform(std::string_view name)
 {
+    if (const XmlElement* value = find(name); value && value->tag == "animation") {
+        if (placed_) return *placed_;
+        throw SceneError(value->where, describe() + " cannot move, only shapes, instances and sensors can: give '" + std::string(name) +
+                                           "' by a <transform>");
+    }
     const XmlElement* value = take(name, {"transform"});
     return value ? read_transform(*value) : Transform();
+}
+
+AnimatedTransform ObjectReader::animation(std::string_view name)
+{
+    const XmlElement* value = take(name, {"transform", "animation"});
+    if (!value) return {};
+    return value->tag == "animation" ? read_animation(*value) : read_transform(*value);
 }
 
 Vec3 ObjectReader::color(std::string_view name, Vec3 fallback, ColorRole role)

@@ -4,7 +4,7 @@
 
 #include "import/colors.h"
 #include "import/scene_index.h"
-#include "math/transform.h"
+#include "math/animated_transform.h"
 
 #include <optional>
 #include <set>
@@ -39,7 +39,10 @@ public:
     bool boolean(std::string_view name, bool fallback);
     std::string text(std::string_view name, const std::string& fallback); // throws without a value and fallback ""
     std::optional<Vec3> vector(std::string_view name);                    // <point> or <vector>
-    Transform transform(std::string_view name);                           // identity without one
+    Transform transform(std::string_view name);                           // identity without one; throws for what moves
+    AnimatedTransform animation(std::string_view name);                   // <transform> or <animation>
+    // What transform() returns in place of an <animation> from now on.
+    void place(const Transform& to_world) { placed_ = to_world; }
     Vec3 color(std::string_view name, Vec3 fallback, ColorRole role);
     // The index of refraction in a <float>, or named in a <string>.
     float ior(std::string_view name, const char* fallback);
@@ -69,6 +72,7 @@ private:
     const XmlElement& element_;
     const SceneIndex& index_;
     std::set<const XmlElement*> used_;
+    std::optional<Transform> placed_;
 };
 
 } // namespace sundog

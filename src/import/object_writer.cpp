@@ -15,6 +15,14 @@ void set(pugi::xml_node node, const char* attribute, const std::string& value)
     node.append_attribute(attribute).set_value(value.c_str());
 }
 
+void append_matrix(pugi::xml_node node, const Transform& t)
+{
+    std::string text;
+    for (const auto& row : t.m)
+        for (double v : row) text += (text.empty() ? "" : " ") + number_text(v);
+    set(node.append_child("matrix"), "value", text);
+}
+
 } // namespace
 
 ObjectWriter ObjectWriter::object(const char* tag, const std::string& type, const std::string& name, const std::string& id)
@@ -83,10 +91,19 @@ void ObjectWriter::transform(const char* name, const Transform& t)
 {
     pugi::xml_node child = node_.append_child("transform");
     set(child, "name", name);
-    std::string text;
-    for (const auto& row : t.m)
-        for (double v : row) text += (text.empty() ? "" : " ") + number_text(v);
-    set(child.append_child("matrix"), "value", text);
+    append_matrix(child, t);
+}
+
+void ObjectWriter::transform(const char* name, const AnimatedTransform& t)
+{
+    if (t.is_constant()) return transform(name, t.at(0.0));
+    pugi::xml_node animation = node_.append_child("animation");
+    set(animation, "name", name);
+    for (const TransformKey& key : t.keys()) {
+        pugi::xml_node child = animation.append_child("transform");
+        set(child, "time", number_text(key.time));
+        append_matrix(child, key.transform);
+    }
 }
 
 } // namespace sundog

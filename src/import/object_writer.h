@@ -1,7 +1,7 @@
 // Objects and parameters of a Mitsuba 3 scene file, being written: the counterpart of ObjectReader.
 #pragma once
 
-#include "math/transform.h"
+#include "math/animated_transform.h"
 #include "scene/scene.h"
 
 #include <pugixml.hpp>
@@ -28,6 +28,7 @@ public:
     void color(const char* name, Vec3 value);
     void vector(const char* tag, const char* name, Vec3 value); // <point> or <vector>
     void transform(const char* name, const Transform& value);
+    void transform(const char* name, const AnimatedTransform& value); // <animation> where there are several keys
     // A parameter of any tag whose value is a text already.
     void value(const char* tag, const std::string& name, const std::string& text);
 

@@ -1,7 +1,10 @@
 #include "import/sensor_import.h"
 
+#include "import/animation_import.h"
+#include "import/number_text.h"
 #include "import/text_file.h"
 #include "math/direction.h"
+#include "scene/sensor_pose.h"
 
 #include <cmath>
 #include <numbers>
@@ -61,19 +64,32 @@ double read_tan_half_x(ObjectReader& reader, double aspect)
 namespace
 {
 
-// Position and axes, whatever their lengths in to_world are.
-void set_pose(const Transform& to_world, const SourceLocation& where, Sensor& sensor)
+void read_shutter(ObjectReader& reader, Sensor& sensor)
 {
-    sensor.position = to_world.point({0, 0, 0});
+    sensor.shutter = {reader.number("shutter_open", 0.0), reader.number("shutter_close", 0.0)};
+    const auto [open, close] = sensor.shutter;
+    if (open <= close) return;
+    throw SceneError(reader.where_of(reader.has("shutter_close") ? "shutter_close" : "shutter_open"),
+                     "the shutter closes (shutter_close, " + number_text(close) + ", default 0) before it opens (shutter_open, " +
+                         number_text(open) + "): exchange the two, or give both the same time for a still");
+}
+
+Transform read_key(const Transform& to_world, const SourceLocation& where)
+{
+    Sensor sensor;
+    set_pose(to_world, sensor);
     if (!is_finite(sensor.position)) throw SceneError(where, "the position of the sensor is too large for 32-bit numbers");
-    sensor.axis_z = direction_of(to_world.vector({0, 0, 1}));
-    sensor.axis_y = direction_of(to_world.vector({0, 1, 0}));
-    constexpr float rounding = 1e-6f; // of the cosine of axes that are perpendicular
-    if (const float lean = dot(sensor.axis_y, sensor.axis_z); std::abs(lean) > rounding)
-        sensor.axis_y = direction_of(sensor.axis_y - sensor.axis_z * lean);
-    // A reflection in to_world mirrors the image.
-    const Vec3 x = cross(sensor.axis_y, sensor.axis_z);
-    sensor.axis_x = to_world.determinant() < 0.0 ? -x : x;
+    return pose_of(sensor);
+}
+
+// Where the sensor is and, if it moves, where it goes.
+void read_pose(const AnimatedTransform& to_world, const SourceLocation& where, Sensor& sensor)
+{
+    std::vector<TransformKey> keys = to_world.keys();
+    for (TransformKey& key : keys) key.transform = read_key(key.transform, where);
+    const AnimatedTransform motion(keys);
+    set_pose(motion.at(sensor.shutter.open), sensor);
+    if (motion.moves(sensor.shutter.open, sensor.shutter.close)) sensor.motion = motion;
 }
 
 void read_clip_planes(ObjectReader& reader, Sensor& sensor)
@@ -86,35 +102,54 @@ void read_clip_planes(ObjectReader& reader, Sensor& sensor)
 
 void read_perspective(ObjectReader& reader, const SceneIndex& index, const Film& film, Sensor& sensor)
 {
-    const Transform to_world = reader.transform("to_world");
-    const auto scale = to_world.uniform_scale();
+    const AnimatedTransform to_world = read_to_world(reader, sensor.shutter);
     const SourceLocation where = reader.where_of("to_world");
-    if (!scale) throw SceneError(where, "to_world of a sensor must not shear or scale unevenly: use translate, rotate and lookat");
-    if (std::abs(*scale - 1.0) > 1e-3) index.warn(where, "the scale in to_world of a sensor is ignored", WarningKind::ignored);
-    set_pose(to_world, where, sensor);
+    bool scaled = false;
+    for (const TransformKey& key : to_world.keys()) {
+        const auto scale = key.transform.uniform_scale();
+        if (!scale) throw SceneError(where, "to_world of a sensor must not shear or scale unevenly: use translate, rotate and lookat");
+        scaled = scaled || std::abs(*scale - 1.0) > 1e-3;
+    }
+    if (scaled) index.warn(where, "the scale in to_world of a sensor is ignored", WarningKind::ignored);
+    read_pose(to_world, where, sensor);
     sensor.fov_x = static_cast<float>(2.0 * std::atan(read_tan_half_x(reader, static_cast<double>(film.width) / film.height)));
     sensor.principal_offset_x = static_cast<float>(reader.number("principal_point_offset_x", 0.0));
     sensor.principal_offset_y = static_cast<float>(reader.number("principal_point_offset_y", 0.0));
+}
+
+// Lengths of to_world's axes, which must be perpendicular.
+Vec3 orthogonal_scale(const Transform& to_world, const SourceLocation& where)
+{
+    const Vec3 x = to_world.vector({1, 0, 0}), y = to_world.vector({0, 1, 0}), z = to_world.vector({0, 0, 1});
+    const Vec3 scale{direction_and_length(x).length, direction_and_length(y).length, direction_and_length(z).length};
+    if (!std::isnormal(scale.x) || !std::isnormal(scale.y) || !std::isnormal(scale.z))
+        throw SceneError(where, "the scale in to_world of the sensor is out of range of 32-bit numbers");
+    constexpr float tolerance = 1e-3f; // of the cosines between axes
+    if (std::abs(dot(x, y)) > tolerance * scale.x * scale.y || std::abs(dot(y, z)) > tolerance * scale.y * scale.z ||
+        std::abs(dot(z, x)) > tolerance * scale.z * scale.x)
+        throw SceneError(where, "to_world of an orthographic sensor must not shear: scale first, then rotate, lookat and translate");
+    return scale;
 }
 
 // The film spans [-1, 1] along x of to_world, and along y what makes pixels square where to_world does not stretch
 // one axis more than the other.
 void read_orthographic(ObjectReader& reader, const SceneIndex& index, Sensor& sensor)
 {
-    const Transform to_world = reader.transform("to_world");
+    const AnimatedTransform to_world = read_to_world(reader, sensor.shutter);
     const SourceLocation where = reader.where_of("to_world");
     sensor.projection = Projection::orthographic;
-    set_pose(to_world, where, sensor);
-    const Vec3 x = to_world.vector({1, 0, 0}), y = to_world.vector({0, 1, 0}), z = to_world.vector({0, 0, 1});
-    sensor.extent_x = direction_and_length(x).length;
-    sensor.extent_y = direction_and_length(y).length;
-    const float scale_z = direction_and_length(z).length;
-    if (!std::isnormal(sensor.extent_x) || !std::isnormal(sensor.extent_y) || !std::isnormal(scale_z))
-        throw SceneError(where, "the scale in to_world of the sensor is out of range of 32-bit numbers");
-    constexpr float tolerance = 1e-3f; // of the cosines between axes
-    if (std::abs(dot(x, y)) > tolerance * sensor.extent_x * sensor.extent_y ||
-        std::abs(dot(y, z)) > tolerance * sensor.extent_y * scale_z || std::abs(dot(z, x)) > tolerance * scale_z * sensor.extent_x)
-        throw SceneError(where, "to_world of an orthographic sensor must not shear: scale first, then rotate, lookat and translate");
+    const std::vector<TransformKey> keys = to_world.keys();
+    const Vec3 scale = orthogonal_scale(keys.front().transform, where);
+    for (const TransformKey& key : keys) {
+        const Vec3 ratio = orthogonal_scale(key.transform, where) * Vec3{1 / scale.x, 1 / scale.y, 1 / scale.z} - Vec3{1, 1, 1};
+        if (std::max({std::abs(ratio.x), std::abs(ratio.y), std::abs(ratio.z)}) > 1e-3f)
+            throw SceneError(where,
+                             "the film of an orthographic sensor cannot grow or shrink while it moves: give all keys the same scale");
+    }
+    read_pose(to_world, where, sensor);
+    sensor.extent_x = scale.x;
+    sensor.extent_y = scale.y;
+    const float scale_z = scale.z;
     // Mitsuba 3 has the near plane in camera space, and the far one where the unscaled distance between them ends;
     // 0.6 has both in world space.
     if (!index.legacy()) {
@@ -173,7 +208,6 @@ void read_sampler(ObjectReader& sensor, const SceneIndex& index, IntegratorReque
 
 void refuse_unsupported(ObjectReader& reader)
 {
-    for (const char* name : {"shutter_open", "shutter_close"}) reader.ignore(name, "nothing in the scene moves");
     reader.refuse("srf", "remove it");
 }
 
@@ -195,6 +229,7 @@ void import_sensor(const XmlElement& element, const SceneIndex& index, Scene& sc
     Sensor& sensor = scene.sensor;
     sensor.where = element.where;
     read_clip_planes(reader, sensor);
+    read_shutter(reader, sensor);
     if (perspective)
         read_perspective(reader, index, scene.film, sensor);
     else

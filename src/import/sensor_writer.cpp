@@ -2,6 +2,7 @@
 
 #include "import/preimage.h"
 #include "math/direction.h"
+#include "scene/sensor_pose.h"
 
 #include <cmath>
 #include <numbers>
@@ -60,14 +61,13 @@ void set_column(Transform& t, std::size_t j, Vec3 v)
     t.m[2][j] = v.z;
 }
 
-Transform pose(const Sensor& sensor)
+// to_world of the sensor, `scaled` making it of a pose.
+template <class Scaled> AnimatedTransform placed(const Sensor& sensor, Scaled scaled)
 {
-    Transform to_world;
-    set_column(to_world, 0, sensor.axis_x);
-    set_column(to_world, 1, sensor.axis_y);
-    set_column(to_world, 2, sensor.axis_z);
-    set_column(to_world, 3, sensor.position);
-    return to_world;
+    if (!sensor.motion) return scaled(sensor);
+    std::vector<TransformKey> keys = sensor.motion->keys();
+    for (TransformKey& key : keys) key.transform = scaled(sensor_at(sensor, key.time));
+    return AnimatedTransform(keys);
 }
 
 template <class T> T required(const std::optional<T>& found, const Sensor& sensor)
@@ -84,7 +84,7 @@ double degrees(float radians)
 
 void write_perspective(ObjectWriter object, const Sensor& sensor)
 {
-    object.transform("to_world", pose(sensor));
+    object.transform("to_world", placed(sensor, pose_of));
     object.number("fov", degrees(sensor.fov_x));
     object.text("fov_axis", "x");
     if (sensor.principal_offset_x != 0.0f) object.number("principal_point_offset_x", sensor.principal_offset_x);
@@ -95,9 +95,9 @@ void write_perspective(ObjectWriter object, const Sensor& sensor)
 
 // The extents are the scale of to_world's first two columns. The third has none, so that the near plane of Mitsuba 3,
 // which is scaled, is where it is in the scene; the far one, at an unscaled distance from it, loses a rounding.
-float write_orthographic(ObjectWriter object, const Sensor& sensor)
+Transform orthographic_to_world(const Sensor& sensor)
 {
-    Transform to_world = pose(sensor);
+    Transform to_world = pose_of(sensor);
     const auto x = find_near(sensor.axis_x * sensor.extent_x, [&](Vec3 v) { return direction_and_length(v).length == sensor.extent_x; });
     const auto y = find_near(sensor.axis_y * sensor.extent_y, [&](Vec3 v) {
         const auto [direction, length] = direction_and_length(v);
@@ -105,7 +105,13 @@ float write_orthographic(ObjectWriter object, const Sensor& sensor)
     });
     set_column(to_world, 0, required(x, sensor));
     set_column(to_world, 1, required(y, sensor));
-    object.transform("to_world", to_world);
+    return to_world;
+}
+
+// Returns far_clip as it is written.
+float write_orthographic(ObjectWriter object, const Sensor& sensor)
+{
+    object.transform("to_world", placed(sensor, orthographic_to_world));
     object.number("near_clip", sensor.near_clip);
     const float near_clip = sensor.near_clip;
     const auto far_clip = find_near(sensor.far_clip, [&](float far) { return near_clip + (far - near_clip) == sensor.far_clip; });
@@ -127,6 +133,8 @@ void write_sensor(ObjectWriter root, const Scene& scene)
         far_clip = write_orthographic(object, sensor);
     else
         write_perspective(object, sensor);
+    if (sensor.shutter.open != 0.0) object.number("shutter_open", sensor.shutter.open);
+    if (sensor.shutter.close != 0.0) object.number("shutter_close", sensor.shutter.close);
     if (lens) object.number("aperture_radius", sensor.aperture_radius);
     if (sensor.focus_distance != far_clip) object.number("focus_distance", sensor.focus_distance);
     write_film(object, scene.film);

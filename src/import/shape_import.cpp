@@ -1,5 +1,6 @@
 #include "import/shape_import.h"
 
+#include "import/animation_import.h"
 #include "import/emitter_import.h"
 #include "import/mesh_import.h"
 #include "import/mesh_parts.h"
@@ -126,7 +127,9 @@ public:
     void run()
     {
         const std::string type = reader_.type();
-        if (const auto emitter = reader_.single("emitter")) common_.emitter = import_area_emitter(*emitter->object, reader_.index(), textures_);
+        const auto emitter = reader_.single("emitter");
+        if (emitter) common_.emitter = import_area_emitter(*emitter->object, reader_.index(), textures_);
+        read_placement(emitter);
         const auto bsdf = reader_.single("bsdf");
         if (type == "obj" && !bsdf) {
             add_obj_with_materials();
@@ -138,6 +141,21 @@ public:
     }
 
 private:
+    // A shape that moves is the only one of a group, which has one instance.
+    void read_placement(const std::optional<NestedObject>& emitter)
+    {
+        const AnimatedTransform to_world = read_to_world(reader_, scene_.sensor.shutter);
+        if (to_world.is_constant()) return reader_.place(to_world.at(0.0));
+        if (emitter)
+            throw SceneError(emitter->where,
+                             "a shape that moves cannot emit light: let the light stand still, by a <transform> in place of "
+                             "the <animation>");
+        reader_.place(Transform());
+        common_.group = static_cast<uint>(scene_.groups.size());
+        scene_.groups.push_back({common_.id, common_.where});
+        scene_.instances.push_back({common_.id, common_.where, *common_.group, to_world});
+    }
+
     decltype(ShapeDescription::geometry) read_geometry(const std::string& type)
     {
         if (type == "obj") return import_obj(reader_, false).mesh;

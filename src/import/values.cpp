@@ -140,6 +140,28 @@ Transform read_transform(const XmlElement& element)
     return all;
 }
 
+AnimatedTransform read_animation(const XmlElement& element)
+{
+    std::vector<TransformKey> keys;
+    for (const auto& child : element.children) {
+        if (child.tag != "transform")
+            throw SceneError(child.where, "unexpected <" + child.tag + "> in an animation: it has a <transform time=\"...\"> for each key");
+        check_attributes(child, {"time"}, {});
+        const TransformKey key{number_attribute(child, "time"), read_transform(child)};
+        if (!keys.empty() && !(keys.back().time < key.time))
+            throw SceneError(child.where,
+                             "time " + *child.attribute("time") +
+                                 " does not come after that of the key before it: put the transforms in the order of their times");
+        if (!keys.empty() && (keys.back().transform.determinant() < 0.0) != (key.transform.determinant() < 0.0))
+            throw SceneError(child.where,
+                             "one of two keys is a reflection, between which the shape would be flat: mirror all keys (a negative "
+                             "scale) or none");
+        keys.push_back(key);
+    }
+    if (keys.empty()) throw SceneError(element.where, "the animation is empty: add a <transform time=\"...\"> for each key");
+    return AnimatedTransform(keys);
+}
+
 Vec3 to_vec3(const Double3& v)
 {
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "import/xml_document.h"
-#include "math/transform.h"
+#include "math/animated_transform.h"
 
 #include <initializer_list>
 
@@ -23,6 +23,10 @@ Double3 xyz_attributes(const XmlElement& element, double fallback);
 // The product of a <transform>'s operations, the first applied first.
 // Throws SceneError for malformed, singular, infinite and perspective ones.
 Transform read_transform(const XmlElement& element);
+
+// An <animation>: a <transform time="..."> a key. Throws SceneError for none, for times that do not increase, for
+// transforms that are broken, and for a reflection beside one that is none, between which space would be flat.
+AnimatedTransform read_animation(const XmlElement& element);
 
 Vec3 to_vec3(const Double3& v);
 

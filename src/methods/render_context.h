@@ -10,7 +10,7 @@ namespace sundog {
 struct RenderContext {
     Device& device;
     const DeviceScene& scene;
-    const Camera& camera;
+    const Camera& camera; // moves from pass to pass, as does the scene: both are where they belong when a pass begins
     const PixelFilter& filter;
     DeviceFilm& film;
     const SpectralTransport& spectral; // its pass begins before the method's

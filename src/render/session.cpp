@@ -10,6 +10,7 @@
 #include "scene/fingerprint.h"
 #include "scene/flat_scene.h"
 #include "shared/film.h"
+#include "stages/scene_motion.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -87,10 +88,11 @@ Scene sized_scene(Scene scene, const RenderSettings& settings, const DeviceInfo&
 struct RenderSession::State {
     State(Scene scene_in, Device& device_in, const RenderSettings& settings)
         : scene(sized_scene(std::move(scene_in), settings, device_in.info())), device(device_in), info(choose_method(scene, settings)),
-          parameters(choose_parameters(scene, settings, info)), seed(settings.seed.value_or(scene.integrator.seed)), device_scene(device, scene, is_spectral(parameters), light_selection(parameters)),
-          camera(make_camera(scene.sensor, scene.film)), filter(make_pixel_filter(scene.film.filter)),
-          film(device, scene.film.crop_width, scene.film.crop_height), spectral(device, device_scene, seed),
-          context{device, device_scene, camera, filter, film, spectral, seed},
+          parameters(choose_parameters(scene, settings, info)), seed(settings.seed.value_or(scene.integrator.seed)),
+          device_scene(device, scene, is_spectral(parameters), light_selection(parameters)), camera(make_camera(scene.sensor, scene.film)),
+          filter(make_pixel_filter(scene.film.filter)), film(device, scene.film.crop_width, scene.film.crop_height),
+          motion(device_scene, scene, camera, seed),
+          spectral(device, device_scene, seed), context{device, device_scene, camera, filter, film, spectral, seed},
           method(info.create(context, parameters))
     {
         if (scene.has_dispersion() && !device_scene.is_spectral())
@@ -106,6 +108,7 @@ struct RenderSession::State {
     Camera camera;
     PixelFilter filter;
     DeviceFilm film;
+    SceneMotion motion;
     SpectralTransport spectral;
     RenderContext context;
     std::unique_ptr<Method> method;
@@ -125,7 +128,8 @@ struct RenderSession::State {
 
 RenderIdentity RenderSession::State::identity()
 {
-    if (!scene_fingerprint) scene_fingerprint = fingerprint(flatten_scene(scene), camera, filter);
+    // Of the camera where the shutter opens, wherever it is now.
+    if (!scene_fingerprint) scene_fingerprint = fingerprint(flatten_scene(scene), make_camera(scene.sensor, scene.film), filter);
     auto values = parameters.all();
     std::erase_if(values, [](const auto& parameter) { return parameter.first == "iterations"; });
     return {SUNDOG_VERSION, info.name, std::move(values), seed, scene.film.crop_width, scene.film.crop_height, scene.file, *scene_fingerprint};
@@ -158,6 +162,7 @@ std::uint64_t RenderSession::requested_iterations() const
 void RenderSession::iterate()
 {
     const Timer timer;
+    state_->motion.begin_pass(state_->iterations);
     state_->spectral.begin_pass(state_->iterations);
     state_->method->render_pass(state_->iterations);
     state_->device.finish();

@@ -13,6 +13,12 @@ template <class T> void append(Hash& hash, std::span<const T> elements)
     hash.append_field({reinterpret_cast<const char*>(elements.data()), elements.size_bytes()});
 }
 
+void append(Hash& hash, const AnimatedTransform& motion)
+{
+    const std::vector<TransformKey> keys = motion.keys();
+    append(hash, std::span<const TransformKey>(keys));
+}
+
 } // namespace
 
 std::string fingerprint(const FlatScene& scene, const Camera& camera, const PixelFilter& filter)
@@ -26,6 +32,13 @@ std::string fingerprint(const FlatScene& scene, const Camera& camera, const Pixe
         append(hash, std::span<const Instance>(scene.instances));
         append(hash, std::span<const uint>(scene.instance_groups));
         append(hash, std::span<const PrimitiveRange>(scene.groups));
+    }
+    const bool moves = scene.sensor_motion || !scene.instance_motions.empty();
+    if (moves) append(hash, std::span(&scene.shutter, 1));
+    if (scene.sensor_motion) append(hash, *scene.sensor_motion);
+    for (const InstanceMotion& motion : scene.instance_motions) {
+        append(hash, std::span(&motion.instance, 1));
+        append(hash, motion.to_world);
     }
     append(hash, std::span(&scene.globals, 1));
     append(hash, std::span(&camera, 1));

@@ -97,19 +97,28 @@ Vec3 row(const Transform& t, std::size_t i)
     return {static_cast<float>(t.m[i][0]), static_cast<float>(t.m[i][1]), static_cast<float>(t.m[i][2])};
 }
 
-Instance flatten_instance(const InstanceDescription& description)
+void check_range(const Instance& instance, const SourceLocation& where)
 {
-    const Transform to_object = description.to_world.inverse();
-    Instance instance{};
-    for (std::size_t i = 0; i < 3; i++) {
-        instance.to_world[i] = row(description.to_world, i);
-        instance.to_object[i] = row(to_object, i);
-    }
-    instance.translation = description.to_world.point({0, 0, 0});
     for (std::size_t i = 0; i < 3; i++)
         if (!is_finite(instance.to_world[i]) || !is_finite(instance.to_object[i]) || !is_finite(instance.translation))
-            throw SceneError(description.where, "to_world of the instance scales too much for 32-bit numbers");
-    return instance;
+            throw SceneError(where, "to_world of the instance scales too much for 32-bit numbers");
+}
+
+void flatten_instance(const InstanceDescription& description, FlatScene& flat)
+{
+    const auto& [open, close] = flat.shutter;
+    Instance instance{};
+    if (description.to_world.moves(open, close)) {
+        for (const TransformKey& key : description.to_world.keys()) { // between them nothing is larger
+            place(key.transform, instance);
+            check_range(instance, description.where);
+        }
+        flat.instance_motions.push_back({static_cast<uint>(flat.instances.size()), description.to_world});
+    }
+    place(description.to_world.at(open), instance);
+    check_range(instance, description.where);
+    flat.instances.push_back(instance);
+    flat.instance_groups.push_back(description.group);
 }
 
 } // namespace
@@ -122,10 +131,9 @@ FlatScene flatten_scene(const Scene& scene)
     for (const auto& description : scene.shapes) flat.shapes.push_back({description.bsdf, NO_LIGHT, 0, 0});
     flat.world = flatten_shapes(scene, std::nullopt, flat);
     for (uint group = 0; group < scene.groups.size(); group++) flat.groups.push_back(flatten_shapes(scene, group, flat));
-    for (const auto& instance : scene.instances) {
-        flat.instances.push_back(flatten_instance(instance));
-        flat.instance_groups.push_back(instance.group);
-    }
+    flat.shutter = scene.sensor.shutter;
+    if (scene.sensor.motion && scene.sensor.motion->moves(flat.shutter.open, flat.shutter.close)) flat.sensor_motion = scene.sensor.motion;
+    for (const auto& instance : scene.instances) flatten_instance(instance, flat);
     if (!flat.normals.empty()) flat.normals.resize(flat.positions.size(), Vec3{});
     if (!flat.uvs.empty()) flat.uvs.resize(flat.positions.size(), Vec2{});
     list_attributes(scene, flat);
@@ -136,6 +144,16 @@ FlatScene flatten_scene(const Scene& scene)
     flat.globals.radius = std::max(bounds.radius() * 1.001f, 1e-20f);
     list_lights(scene, flat);
     return flat;
+}
+
+void place(const Transform& to_world, Instance& instance)
+{
+    const Transform to_object = to_world.inverse();
+    for (std::size_t i = 0; i < 3; i++) {
+        instance.to_world[i] = row(to_world, i);
+        instance.to_object[i] = row(to_object, i);
+    }
+    instance.translation = to_world.point({0, 0, 0});
 }
 
 bool has_delta_lights(const FlatScene& flat)

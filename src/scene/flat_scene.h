@@ -17,6 +17,12 @@ struct PrimitiveRange {
     uint analytic_count = 0;
 };
 
+// An instance that moves while the shutter is open.
+struct InstanceMotion {
+    uint instance = 0; // index into FlatScene::instances
+    AnimatedTransform to_world;
+};
+
 struct FlatScene {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals; // one a position when any shape has them, else empty
@@ -31,6 +37,9 @@ struct FlatScene {
     std::vector<PrimitiveRange> groups;
     std::vector<Instance> instances; // all but root, center and radius, which follow from the hierarchy
     std::vector<uint> instance_groups; // index into groups, one an instance
+    std::vector<InstanceMotion> instance_motions; // of those that move; instances has where they are when the shutter opens
+    std::optional<AnimatedTransform> sensor_motion; // if the camera moves
+    Shutter shutter;
     std::vector<Shape> shapes;
     std::vector<Bsdf> bsdfs;
     std::vector<Light> lights;
@@ -45,6 +54,9 @@ struct FlatScene {
 
 // Throws SceneError when no light has any power, or textures are larger than what 32 bits can address.
 FlatScene flatten_scene(const Scene& scene);
+
+// Gives the instance its matrices. Numbers beyond 32 bits become infinities.
+void place(const Transform& to_world, Instance& instance);
 
 // Whether paths may start at a light that none can hit: points and directions.
 bool has_delta_lights(const FlatScene& flat);

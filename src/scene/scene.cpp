@@ -85,8 +85,20 @@ Bounds Scene::bounds() const
     std::vector<Bounds> of_group(groups.size());
     for (const auto& shape : shapes)
         (shape.group ? of_group[*shape.group] : all).extend(std::visit([](const auto& g) { return bounds_of(g); }, shape.geometry));
-    for (const auto& instance : instances) all.extend(instance.to_world.box(of_group[instance.group]));
+    for (const auto& instance : instances) {
+        const Bounds& group = of_group[instance.group];
+        const auto [open, close] = sensor.shutter;
+        all.extend(instance.to_world.moves(open, close) ? instance.to_world.box(group, open, close)
+                                                        : instance.to_world.at(open).box(group));
+    }
     return all;
+}
+
+bool Scene::moves() const
+{
+    const auto [open, close] = sensor.shutter;
+    return (sensor.motion && sensor.motion->moves(open, close)) ||
+           std::any_of(instances.begin(), instances.end(), [&](const InstanceDescription& i) { return i.to_world.moves(open, close); });
 }
 
 } // namespace sundog

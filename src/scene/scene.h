@@ -5,10 +5,11 @@
 #pragma once
 
 #include "base/errors.h"
+#include "math/animated_transform.h"
 #include "math/bounds.h"
-#include "math/transform.h"
 #include "math/vec3.h"
 #include "scene/dispersion.h"
+#include "scene/shutter.h"
 #include "shared/vec2.h"
 
 #include <array>
@@ -243,7 +244,7 @@ struct InstanceDescription {
     std::string id;
     SourceLocation where;
     uint group = 0; // index into Scene::groups
-    Transform to_world; // affine, not singular
+    AnimatedTransform to_world; // affine, nowhere singular
 };
 
 struct PointEmitter {
@@ -318,6 +319,10 @@ struct Sensor {
     float far_clip = 1e4f;
     float aperture_radius = 0.0f; // 0: pinhole
     float focus_distance = 0.0f; // along axis_z
+    Shutter shutter;
+    // Where the camera goes while the shutter is open, by poses (orthonormal); the position and axes above are those
+    // where it opens. Nothing: it stands still.
+    std::optional<AnimatedTransform> motion = std::nullopt;
 };
 
 enum class FilterKind { box, tent, gaussian, mitchell, lanczos };
@@ -372,8 +377,9 @@ struct Scene {
 
     std::size_t triangle_count() const; // as stored: those of groups once
     std::size_t triangle_count_with_copies() const; // as seen
-    Bounds bounds() const; // of all that is seen; around instances not tight
+    Bounds bounds() const; // of all that is seen while the shutter is open; around instances not tight
     bool has_dispersion() const;
+    bool moves() const; // whether camera or instances do while the shutter is open
 };
 
 } // namespace sundog

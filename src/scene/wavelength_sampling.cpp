@@ -1,5 +1,6 @@
 #include "scene/wavelength_sampling.h"
 
+#include "math/mix_bits.h"
 #include "scene/spectral_basis.h"
 #include "scene/spectrum.h"
 
@@ -37,14 +38,6 @@ const Distribution& distribution()
     return table;
 }
 
-// [Steele, Lea and Flood 2014], the finaliser of SplitMix64.
-std::uint64_t mixed(std::uint64_t x)
-{
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
-}
-
 Vec3 as_row(const Double3& v, double scale)
 {
     return {static_cast<float>(v[0] * scale), static_cast<float>(v[1] * scale), static_cast<float>(v[2] * scale)};
@@ -70,7 +63,7 @@ double wavelength_at(double share)
 std::array<double, wavelengths_of_a_pass> pass_wavelengths(std::uint64_t seed, std::uint64_t pass)
 {
     constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15u; // its fraction, times 2^64
-    const std::uint64_t place = mixed(seed + golden_ratio) + pass * golden_ratio;
+    const std::uint64_t place = mix_bits(seed + golden_ratio) + pass * golden_ratio;
     const double u = static_cast<double>(place >> 11) * 0x1p-53;
     return {wavelength_at(u / 3.0), wavelength_at((u + 1.0) / 3.0), wavelength_at((u + 2.0) / 3.0)};
 }

@@ -17,6 +17,7 @@ inline void use_camera(BuildOptions& options, const Camera& camera)
 // One path a pixel of the crop.
 class CameraPaths {
 public:
+    // Keeps a reference to the camera, which may move from pass to pass.
     CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, const BuildOptions& surface_options = {});
 
     // Starts the pool's paths at the camera, finds their first hits, and clears `radiance`.
@@ -34,7 +35,7 @@ public:
     const Buffer<PixelFilter>& filter() const { return filter_; }
 
 private:
-    Camera camera_;
+    const Camera& camera_;
     std::size_t count_;
     Buffer<PixelFilter> filter_;
     Kernel generate_camera_rays_;

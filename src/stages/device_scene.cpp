@@ -41,7 +41,7 @@ FlatScene flatten(const Scene& scene, LightSelection selection)
 
 DeviceScene::DeviceScene(Device& device, const Scene& scene, bool spectral, LightSelection selection) : spectral_(spectral)
 {
-    const FlatScene flat = flatten(scene, selection);
+    FlatScene flat = flatten(scene, selection);
     const Bvh bvh = build_scene_bvh(flat);
     bounds_ = bvh.bounds;
     trace_options_ = sundog::trace_options(flat.analytics, flat.instances);
@@ -53,6 +53,16 @@ DeviceScene::DeviceScene(Device& device, const Scene& scene, bool spectral, Ligh
 #define UPLOAD(type, name) name = upload(device, flat.name, #name);
     SURFACE_ARRAYS(UPLOAD)
 #undef UPLOAD
+    if (flat.instance_motions.empty()) return;
+    instances_ = bvh.instances;
+    instance_motions_ = std::move(flat.instance_motions);
+}
+
+void DeviceScene::set_time(double time)
+{
+    if (instance_motions_.empty()) return;
+    for (const auto& [instance, to_world] : instance_motions_) place(to_world.at(time), instances_[instance]);
+    geometry_.instances.upload(instances_);
 }
 
 void DeviceScene::set_wavelengths(const Wavelengths& wavelengths)

@@ -17,6 +17,9 @@ public:
     bool is_spectral() const { return spectral_; }
     void set_wavelengths(const Wavelengths& wavelengths);
 
+    // Places all instances that move where they are at a time that the shutter is open. At first they are where it opens.
+    void set_time(double time);
+
     // Arguments for GEOMETRY_PARAMETERS and SURFACE_PARAMETERS.
     struct Surfaces {
         const DeviceScene* scene;
@@ -41,6 +44,8 @@ private:
 
     bool spectral_;
     SceneGlobals globals_; // what the device has
+    std::vector<Instance> instances_; // the same, of scenes where some move
+    std::vector<InstanceMotion> instance_motions_;
     Bounds bounds_;
     BuildOptions trace_options_;
     BuildOptions surface_options_;

@@ -72,6 +72,49 @@ TEST_F(CliInfo, a_dump_does_not_overwrite_the_scene)
     EXPECT_EQ(read("scene.xml"), SmallScene().xml());
 }
 
+// A ball and the camera move; the square does not.
+SmallScene moving_scene(const std::string& shutter_close)
+{
+    SmallScene scene;
+    scene.sensor_start =
+        "<sensor type=\"perspective\"><float name=\"shutter_close\" value=\"" + shutter_close + R"("/><animation name="to_world">
+<transform time="0"><lookat origin="0, 0, 4" target="0, 0, 0"/></transform><transform time="1"><lookat origin="1, .3, 4" target=".1, 0, 0"/></transform></animation>)";
+    scene.shape +=
+        R"(<shape type="sphere"><float name="radius" value=".37"/><animation name="to_world"><transform time="0"><translate x="-.5"/></transform>
+<transform time="0.7"><rotate y="1" angle="30"/><translate x=".5"/></transform></animation></shape>)";
+    return scene;
+}
+
+TEST_F(CliInfo, says_what_moves)
+{
+    write("scene.xml", moving_scene("0.5").xml());
+    EXPECT_THAT(run({"info", "scene.xml"}).out, HasSubstr("motion        camera, 1 of 1 instances; shutter 0 to 0.5\n"));
+    const auto json = nlohmann::json::parse(run({"info", "scene.xml", "--json"}).out);
+    EXPECT_EQ(json["shutter"]["close"], 0.5);
+    EXPECT_EQ(json["moving"]["camera"], true);
+    EXPECT_EQ(json["moving"]["instances"], 1);
+    write("still.xml", moving_scene("0").xml());
+    const std::string still = run({"info", "still.xml"}).out;
+    EXPECT_THAT(still, ::testing::Not(HasSubstr("motion  ")));
+    EXPECT_THAT(still, HasSubstr("sphere' stands still: the shutter is open for no time"));
+    EXPECT_THAT(still, HasSubstr("sensor 'perspective' stands still"));
+}
+
+TEST_F(CliInfo, a_dump_of_what_moves_renders_to_the_same_pixels)
+{
+    write("scene.xml", moving_scene("0.5").xml());
+    EXPECT_EQ(run({"info", "scene.xml", "--dump", "out.xml"}).status, 0);
+    EXPECT_THAT(read("out.xml"), HasSubstr("<animation"));
+    write("still.xml", moving_scene("0").xml());
+    for (const std::string method : {"path", "sppm"}) {
+        EXPECT_EQ(run({"render", "scene.xml", "-m", method, "-n", "3", "-o", "a.pfm"}).status, 0);
+        EXPECT_EQ(run({"render", "out.xml", "-m", method, "-n", "3", "-o", "b.pfm"}).status, 0);
+        EXPECT_TRUE(read("a.pfm") == read("b.pfm")) << method;
+        EXPECT_EQ(run({"render", "still.xml", "-m", method, "-n", "3", "-o", "c.pfm"}).status, 0);
+        EXPECT_FALSE(read("a.pfm") == read("c.pfm")) << method;
+    }
+}
+
 TEST_F(CliInfo, warnings_come_in_groups)
 {
     SmallScene scene;

@@ -31,19 +31,22 @@ protected:
         trace_any_ = Kernel(device_, "trace_any", "Trace shadow rays", options);
     }
 
-    std::vector<Hit> closest(const std::vector<Ray>& rays)
+    std::vector<Hit> closest(const std::vector<Ray>& rays) { return closest(rays, geometry_); }
+    std::vector<uint> any(const std::vector<Ray>& rays) { return any(rays, geometry_); }
+
+    std::vector<Hit> closest(const std::vector<Ray>& rays, const GeometryBuffers& geometry)
     {
         Buffer<Ray> ray_buffer(device_, rays, "rays");
         Buffer<Hit> hits(device_, rays.size(), "hits");
-        trace_closest_(rays.size(), geometry_, ray_buffer, hits, all_paths(rays.size()), path_count_);
+        trace_closest_(rays.size(), geometry, ray_buffer, hits, all_paths(rays.size()), path_count_);
         return hits.download();
     }
 
-    std::vector<uint> any(const std::vector<Ray>& rays)
+    std::vector<uint> any(const std::vector<Ray>& rays, const GeometryBuffers& geometry)
     {
         Buffer<Ray> ray_buffer(device_, rays, "rays");
         Buffer<uint> occluded(device_, rays.size(), "occlusion");
-        trace_any_(rays.size(), geometry_, ray_buffer, all_paths(rays.size()), path_count_, occluded);
+        trace_any_(rays.size(), geometry, ray_buffer, all_paths(rays.size()), path_count_, occluded);
         return occluded.download();
     }
 

@@ -76,8 +76,8 @@ struct Room {
         const uint world_triangles = static_cast<uint>(walls.triangles.size());
         copy(walls, NO_INSTANCE, 0);
         for (uint i = 0; i < scene.instances.size(); i++) {
-            copy(transformed(soup, scene.instances[i].to_world), i, world_triangles);
-            copy(transformed(ball, scene.instances[i].to_world), i, world_triangles + static_cast<uint>(soup.triangles.size()));
+            copy(transformed(soup, scene.instances[i].to_world.at(0)), i, world_triangles);
+            copy(transformed(ball, scene.instances[i].to_world.at(0)), i, world_triangles + static_cast<uint>(soup.triangles.size()));
         }
     }
 };
@@ -90,7 +90,7 @@ TEST_F(TraceInstances, RaysAgreeWithEmbreeOnCopies)
     std::vector<Ray> rays;
     for (int i = 0; i < 400000; i++) {
         const Vec3 origin = random.in_cube(4.0f);
-        const Vec3 place = room.scene.instances[random.index(room.scene.instances.size())].to_world.point(random.in_cube(0.7f));
+        const Vec3 place = room.scene.instances[random.index(room.scene.instances.size())].to_world.at(0).point(random.in_cube(0.7f));
         rays.push_back({origin, i % 4 ? infinite : random.between(0.0f, 3.0f), i % 2 ? place - origin : random.direction(), 0});
     }
     const std::vector<Hit> hits = closest(rays);

@@ -1,7 +1,9 @@
 // Independent estimators agree: what different methods make of one scene differs by noise alone.
 
+#include "scene/sensor_pose.h"
 #include "support/cornell_scene.h"
 #include "support/environment_probe.h"
+#include "support/instanced_scene.h"
 #include "support/render_replicates.h"
 
 #include <gtest/gtest.h>
@@ -88,6 +90,56 @@ TEST(Agreement, GlassAndMirrorSpheres)
     scene.shapes.push_back(make_sphere({.45f, -.6f, .3f}, .4f, glass));
     scene.shapes.push_back(make_sphere({-.45f, -.6f, -.3f}, .4f, mirror));
     expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24)}, edge_bias);
+}
+
+AnimatedTransform between(const Transform& from, const Transform& to)
+{
+    return AnimatedTransform(std::vector<TransformKey>{{0, from}, {1, to}});
+}
+
+void add_moving(Scene& scene, const ShapeDescription& shape, const AnimatedTransform& to_world)
+{
+    scene.shapes.push_back(shape);
+    make_instances(scene, scene.shapes.size() - 1, {Transform()});
+    scene.instances.back().to_world = to_world;
+}
+
+// Seen by a camera that moves: a glass ball that crosses under the light, with its caustic, and a turning mirror.
+Scene moving_box()
+{
+    Scene scene = cornell_box(size);
+    const uint glass = add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}});
+    const uint mirror = add_bsdf(scene, ConductorBsdf{});
+    const uint both_sides = add_bsdf(scene, TwoSidedBsdf{mirror, mirror});
+    add_moving(scene, make_sphere({0, 0, 0}, 0.35f, glass),
+               between(Transform::translate({-.5, -.5, .3}), Transform::translate({.5, -.3, .3})));
+    add_moving(scene, make_quad({-.3f, -.3f, 0}, {.3f, -.3f, 0}, {.3f, .3f, 0}, {-.3f, .3f, 0}, both_sides),
+               between(Transform::translate({.3, .2, -.4}), Transform::translate({-.3, .3, -.4}) * Transform::rotate({1, 2, 0}, 150)));
+    scene.sensor.shutter = {0, 1};
+    const Transform pose = pose_of(scene.sensor);
+    scene.sensor.motion = between(pose, Transform::translate({.3, .1, 0}) * Transform::rotate({0, 1, 0}, 4) * pose);
+    return scene;
+}
+
+TEST(Agreement, MovingGlassMirrorAndCamera)
+{
+    expect_agreement(moving_box(), {request("path", 96), request("pppm", 12), request("sppm", 12)}, edge_bias);
+}
+
+// Where light tracing sees all: the camera looks past the ball and the mirror at their caustics, and at a turning block.
+TEST(Agreement, MovingCausticsAndCamera)
+{
+    Scene scene = moving_box();
+    const Transform to_floor = *Transform::look_at({0, .9, .9}, {0, -1, .1}, Double3{0, 0, -1});
+    scene.sensor.motion = between(to_floor, Transform::translate({.1, 0, 0}) * to_floor);
+    set_pose(to_floor, scene.sensor);
+    scene.sensor.fov_x = 0.4f;
+    scene.instances[0].to_world = between(Transform::translate({-.7, .3, -.5}), Transform::translate({.7, .3, -.4}));
+    scene.instances[1].to_world =
+        between(Transform::translate({-.6, -.6, -.6}), Transform::translate({-.6, -.4, -.6}) * Transform::rotate({1, 2, 0}, 150));
+    add_moving(scene, make_quad({-.2f, 0, 0}, {.2f, 0, 0}, {.2f, .3f, 0}, {-.2f, .3f, 0}, 1),
+               between(Transform::translate({-.2, -.9, .1}), Transform::translate({.2, -.8, .1}) * Transform::rotate({0, 1, 0}, 60)));
+    expect_agreement(scene, {request("path", 96), request("ptracer", 12), request("pppm", 12), request("sppm", 12)}, edge_bias);
 }
 
 // Broad reflections are asked for photons; narrow ones are followed, and asked only for what no followed path finds.

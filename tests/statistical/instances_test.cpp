@@ -110,7 +110,7 @@ TEST(Instances, FingerprintKnowsThem)
     const auto print = [](const Scene& scene) { return fingerprint(flatten_scene(scene), make_camera(scene.sensor, scene.film), make_pixel_filter(scene.film.filter)); };
     const Scene scene = scenes().instanced;
     Scene moved = scene, other = scene;
-    moved.instances[1].to_world.m[0][3] += 1e-3;
+    moved.instances[1].to_world = Transform::translate({1e-3, 0, 0}) * moved.instances[1].to_world.at(0);
     other.instances[0].group = 1;
     EXPECT_EQ(print(scene), print(scene));
     EXPECT_NE(print(scene), print(moved));

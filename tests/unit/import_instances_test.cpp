@@ -31,8 +31,8 @@ TEST(ImportInstances, GroupsAreStoredOnce)
     EXPECT_FALSE(scene.shapes[2].group) << "the lit rectangle";
     EXPECT_TRUE(std::holds_alternative<ConductorBsdf>(scene.bsdfs[scene.shapes[1].bsdf].model));
     ASSERT_EQ(scene.instances.size(), 2u);
-    expect_near(scene.instances[0].to_world.point({1, 1, 1}), {3, 1, 1}, 1e-6f);
-    expect_near(scene.instances[1].to_world.point({1, 2, 3}), {1, 2, 3}, 0);
+    expect_near(scene.instances[0].to_world.at(0).point({1, 1, 1}), {3, 1, 1}, 1e-6f);
+    expect_near(scene.instances[1].to_world.at(0).point({1, 2, 3}), {1, 2, 3}, 0);
     EXPECT_EQ(scene.triangle_count(), 14u);
     EXPECT_EQ(scene.triangle_count_with_copies(), 26u);
     expect_near(scene.bounds().lower, {-1, -1, -1}, 1e-5f);
@@ -43,7 +43,7 @@ TEST(ImportInstances, AnyOrderAndLegacyNames)
 {
     const auto loaded = load_with(instance + "<transform name=\"toWorld\"><translate x=\"5\"/></transform></shape>" + group, {}, "0.6.0");
     ASSERT_EQ(loaded.scene.instances.size(), 1u);
-    expect_near(loaded.scene.instances[0].to_world.point({0, 0, 0}), {5, 0, 0}, 0);
+    expect_near(loaded.scene.instances[0].to_world.at(0).point({0, 0, 0}), {5, 0, 0}, 0);
 }
 
 TEST(ImportInstances, GroupsWithoutInstancesAreNamed)

@@ -12,14 +12,15 @@ using sundog::testing::SceneFolder;
 const std::string whole = R"(<?xml version="1.0" encoding="utf-8"?>
 <scene version="3.0.0"><default name="w" value="64"/>
 <integrator type="sppm"><integer name="max_depth" value="10"/></integrator>
-<sensor type="thinlens"><float name="fov" value="40"/><float name="aperture_radius" value=".1"/>
+<sensor type="thinlens"><float name="fov" value="40"/><float name="aperture_radius" value=".1"/><float name="shutter_close" value="1"/>
 <transform name="to_world"><lookat origin="0, 1, 5" target="0, 0, 0" up="0, 1, 0"/><rotate x="1" angle="3"/></transform>
 <film type="hdrfilm"><integer name="width" value="$w"/><integer name="height" value="48"/><rfilter type="tent"/></film></sensor>
 <bsdf type="twosided" id="m"><bsdf type="diffuse"><spectrum name="reflectance" value="400:.1, 700:.9"/></bsdf></bsdf>
 <shape type="obj"><string name="filename" value="m.obj"/><ref id="m"/></shape><alias id="m" as="n"/>
 <shape type="sphere"><point name="center" x="1"/><bsdf type="dielectric"><string name="int_ior" value="bk7"/></bsdf></shape>
 <shape type="disk"><emitter type="area"><blackbody name="radiance" temperature="5000K"/></emitter><ref id="n"/></shape>
-<include filename="i.xml"/></scene>
+<shape type="cube"><animation name="to_world"><transform time="0"/><transform time="1.5"><rotate y="1" angle="170"/><scale x="2"/></transform>
+</animation></shape><include filename="i.xml"/></scene>
 )";
 
 void write_parts(const SceneFolder& folder)
@@ -32,7 +33,7 @@ void write_parts(const SceneFolder& folder)
 bool loads(const SceneFolder& folder, const std::string& xml)
 {
     try {
-        folder.load(xml);
+        folder.load(xml).scene.bounds(); // of all that moves
         return true;
     } catch (const SceneError&) {
         return false;

@@ -87,7 +87,7 @@ TEST(SceneBvh, TreesHoldTheirOwnPrimitives)
     const TriangleMesh mesh = ball(1);
     for (uint i = 0; i < 7; i++) {
         const Bounds box = world.instances.at(i);
-        for (Vec3 p : transformed(mesh, builder.scene.instances[i].to_world).positions)
+        for (Vec3 p : transformed(mesh, builder.scene.instances[i].to_world.at(0)).positions)
             EXPECT_TRUE(box.lower.x <= p.x && p.x <= box.upper.x && box.lower.y <= p.y && p.y <= box.upper.y && box.lower.z <= p.z &&
                         p.z <= box.upper.z)
                 << i;

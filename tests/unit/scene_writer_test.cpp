@@ -344,6 +344,35 @@ TEST(SceneWriter, Sensors)
             expect_same_after_writing(folder.load(scene_of_sensor("<sensor type=" + sensor + "</sensor>", version)).scene);
 }
 
+// Keys, times and the shutter come back, to the last bit, of shapes, instances and cameras.
+TEST(SceneWriter, Motion)
+{
+    const std::string shutter = R"(<float name="shutter_open" value=".1"/><float name="shutter_close" value="1.7"/>)";
+    const auto keys = [](const std::string& scale) {
+        return "<animation name=\"to_world\"><transform time=\".3\"><scale " + scale +
+               "/><rotate x=\"1\" y=\".3\" angle=\"41\"/></transform>" + "<transform time=\"1.123456789\"><scale " + scale +
+               "/><rotate z=\"1\" y=\".7\" angle=\"55\"/><translate x=\".7\"/></transform>" + "<transform time=\"9\"><scale " + scale +
+               "/><translate x=\".1\"/></transform></animation>";
+    };
+    const SceneFolder folder;
+    folder.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 .1\nv 1 1.3 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n");
+    folder.write("m.mtl", "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 0 1\n");
+    const std::string shapes = shape("sphere", turned) + shape("cube", keys("x=\"-1\" y=\".7\"")) + shape("disk", "") +
+                               shape("obj", R"(<string name="filename" value="m.obj"/>)" + keys("value=\"1.3\"")) +
+                               R"(<shape type="shapegroup" id="g">)" + shape("cube", uneven) + "</shape>" +
+                               shape("instance", "<ref id=\"g\"/>" + keys("x=\"2\"")) + shape("instance", "<ref id=\"g\"/>" + turned) +
+                               shape("sphere", keys("value=\"1\""));
+    for (const std::string& sensor :
+         {"\"perspective\">" + keys("value=\"1\""), "\"thinlens\"><float name=\"aperture_radius\" value=\".1\"/>" + keys("x=\"-1\""),
+          "\"orthographic\">" + keys("x=\"3.3\" y=\"2.1\" z=\"1.7\""), std::string("\"perspective\">")}) {
+        const std::string xml = "<scene version=\"3.0.0\"><sensor type=" + sensor + shutter + "</sensor>" + shapes +
+                                "<shape type=\"rectangle\"><emitter type=\"area\"/></shape></scene>";
+        const Scene scene = folder.load(xml).scene;
+        EXPECT_EQ(flatten_scene(scene).instance_motions.size(), 4u);
+        EXPECT_THAT(expect_same_after_writing(scene), ::testing::HasSubstr("animation"));
+    }
+}
+
 TEST(SceneWriter, FilmsSamplersAndMethods)
 {
     const SceneFolder folder;
