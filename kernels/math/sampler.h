@@ -48,16 +48,19 @@ static inline Sampler light_sampler(SamplerKey key, uint path, uint paths_per_it
     return make_sampler(key, STREAM_LIGHT, 0u, iteration_of(key) * paths_per_iteration + path, depth);
 }
 
-// The next four numbers, each in [0, 1).
-static inline float4 next_4d(Sampler* sampler)
+// The next four numbers, as fractions of 2^32.
+static inline uint4 next_words(Sampler* sampler)
 {
     const uint block = sampler->block++;
 #if SAMPLER == SAMPLER_SOBOL
-    return sobol_owen_4d((uint)sampler->index, hash_combine(sampler->seed.x, block));
+    return sobol_owen_words((uint)sampler->index, hash_combine(sampler->seed.x, block));
 #else
     const uint4 counter = (uint4)((uint)sampler->index, (uint)(sampler->index >> 32), sampler->sequence, block);
-    return unit_float4(philox4x32(counter, sampler->seed));
+    return philox4x32(counter, sampler->seed);
 #endif
 }
+
+// The same, each in [0, 1).
+static inline float4 next_4d(Sampler* sampler) { return unit_float4(next_words(sampler)); }
 
 #endif

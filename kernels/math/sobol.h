@@ -172,15 +172,16 @@ static inline uint reverse_bits(uint x) { return reverse_bits4((uint4)(x)).x; }
 
 // Point `index` of the scrambled, shuffled 4-D sequence that `seed` names, in [0,1)^4. Different
 // seeds give independently scrambled sequences, to be padded into more dimensions
-// [Burley 2020, Practical Hash-based Owen Scrambling].
-static inline float4 sobol_owen_4d(uint index, uint seed)
+// [Burley 2020, Practical Hash-based Owen Scrambling]. As words: fractions of 2^32.
+static inline uint4 sobol_owen_words(uint index, uint seed)
 {
     const uint4 seeds = hash_uint4(seed ^ (uint4)(0x9e3779b9u, 0x7f4a7c15u, 0xf39cc060u, 0x5cedc834u));
     const uint shuffled = scramble_reversed(reverse_bits(index), seed);
     uint4 x = (uint4)(0u);
     for (uint nibble = 0u; nibble < 8u; ++nibble) x ^= vload4(16u * nibble + ((shuffled >> (4u * nibble)) & 15u), SOBOL_NIBBLES);
-    x = reverse_bits4(scramble_reversed4(x, seeds));
-    return unit_float4(x);
+    return reverse_bits4(scramble_reversed4(x, seeds));
 }
+
+static inline float4 sobol_owen_4d(uint index, uint seed) { return unit_float4(sobol_owen_words(index, seed)); }
 
 #endif

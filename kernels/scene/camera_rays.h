@@ -111,7 +111,7 @@ static inline Ray camera_ray(const Camera* camera, float2 film, float2 lens)
     ray.origin = pack(unpack(camera->position) + camera_to_world(camera, origin) + world * (camera->near_clip * length_per_z));
     ray.direction = pack(world);
     ray.t_max = (camera->far_clip - camera->near_clip) * length_per_z;
-    ray.unused = 0u;
+    ray.horizon = 0u;
     return ray;
 }
 

@@ -3,6 +3,7 @@
 #define SUNDOG_CONTINUE_PATH_H
 #include "math/sampler.h"
 #include "scene/bsdf.h"
+#include "scene/light_choice.h"
 #include "shared/path.h"
 
 static inline void scatter_path(PathState* path, const BsdfSample* sample, float3 throughput)
@@ -13,6 +14,10 @@ static inline void scatter_path(PathState* path, const BsdfSample* sample, float
     path->scattered += sample->pdf_w != PDF_DELTA ? 1u : 0u;
     path->eta_scale *= sample->eta_scale;
 }
+
+// For which side of a vertex lights are chosen, with the normal that its lobe has: what light arrives from behind is
+// lost to all but transmissive ones.
+static inline uint lobe_horizon(const Scattering* scattering) { return LIGHT_TREE ? pack_horizon(scattering->normal, is_transmissive(scattering)) : 0u; }
 
 // Extends a camera path; writes its next ray. False: the path ends here. Survival by throughput, without
 // the radiance scale of refraction, which is undone when the path leaves the glass again.
@@ -31,6 +36,7 @@ static inline bool continue_camera_path(const Surface* surface, const Scattering
     scatter_path(path, &sample, throughput);
     separate_wavelengths(scattering, sample.direction, path);
     *ray = ray_from(surface, sample.direction);
+    ray->horizon = lobe_horizon(scattering);
     return true;
 }
 

@@ -2,7 +2,7 @@
 #ifndef SUNDOG_DIRECT_LIGHT_H
 #define SUNDOG_DIRECT_LIGHT_H
 #include "math/sampler.h"
-#include "scene/bsdf.h"
+#include "scene/continue_path.h"
 #include "scene/lights.h"
 
 // [Veach 1997, section 9.2.2], the balance heuristic for one sample of each of two techniques.
@@ -28,17 +28,17 @@ static inline float3 found_emission(const SurfaceView* scene, const Surface* sur
     const uint light = light_of_hit(scene, surface);
     const float3 emitted = emitted_radiance(scene, surface, light);
     if (!mis || is_black(emitted)) return emitted;
-    return emitted * emission_weight(path, light_pdf_w(scene, surface, light, unpack(ray.origin)));
+    return emitted * emission_weight(path, light_pdf_w(scene, surface, light, ray));
 }
 
 // Radiance that one light sample sends along the outgoing direction, if its shadow ray is free. With
 // `mis`, weighted against finding the same light by BSDF sampling. The shadow ray is no_ray() when
 // there is nothing to ask.
-static inline float3 sample_direct_light(const SurfaceView* scene, const Surface* surface, const Scattering* scattering, float4 u, bool mis, Ray* shadow_ray)
+static inline float3 sample_direct_light(const SurfaceView* scene, const Surface* surface, const Scattering* scattering, uint4 words, bool mis, Ray* shadow_ray)
 {
     *shadow_ray = no_ray();
     LightSample light;
-    if (!sample_light(scene, surface, u, &light)) return (float3)(0.0f);
+    if (!sample_light(scene, surface, lobe_horizon(scattering), words, &light)) return (float3)(0.0f);
     const float3 f = bsdf_evaluate(scattering, surface, light.direction, CARRIES_RADIANCE);
     if (is_black(f)) return (float3)(0.0f);
     const float weight = mis && light.pdf_w != PDF_DELTA ? balance_heuristic(light.pdf_w, bsdf_pdf_w(scattering, surface, light.direction)) : 1.0f;

@@ -15,7 +15,7 @@ static inline Ray emission_ray(float3 origin, float3 direction)
     ray.origin = pack(origin);
     ray.direction = pack(direction);
     ray.t_max = INFINITY;
-    ray.unused = 0u;
+    ray.horizon = 0u;
     return ray;
 }
 
@@ -29,11 +29,11 @@ static inline Ray distant_ray(const SurfaceView* scene, float3 direction, float2
     return emission_ray(unpack(scene->globals->center) + radius * (frame.s * d.x + frame.t * d.y - direction), direction);
 }
 
-// u: position, light, choice of a patch of an environment map. [Veach 1997, section 8.3.1]
-static inline EmissionSample sample_emission(const SurfaceView* scene, float4 u, float2 u_direction)
+// words: position, light, choice of a patch of an environment map. [Veach 1997, section 8.3.1]
+static inline EmissionSample sample_emission(const SurfaceView* scene, uint4 words, float2 u_direction)
 {
-    float rest = u.z;
-    const Light light = scene->lights[choose_light(scene, &rest)];
+    const Light light = scene->lights[choose_light_by_power(scene, words.z).light];
+    const float4 u = unit_float4(words);
     const float3 emission = transport_emission(scene, unpack(light.emission)) / light.probability;
     const float disk_area = PI_F * scene->globals->radius * scene->globals->radius;
     EmissionSample sample;

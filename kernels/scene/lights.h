@@ -4,6 +4,7 @@
 #include "math/frame.h"
 #include "math/warp.h"
 #include "scene/environment.h"
+#include "scene/light_choice.h"
 #include "scene/spectral.h"
 #include "scene/surface.h"
 #include "scene/texture.h"
@@ -22,19 +23,6 @@ typedef struct LightSample {
     float3 radiance;  // arriving radiance over pdf_w: times f |cos| it is the estimate
     float pdf_w;      // 1/sr, the light's choice included; PDF_DELTA for point-like lights
 } LightSample;
-
-// Chooses a light with the alias table; u becomes what is left of it, again uniform in [0, 1).
-static inline uint choose_light(const SurfaceView* scene, float* u)
-{
-    const uint count = scene->globals->light_count;
-    const float scaled = *u * (float)count;
-    const uint column = min((uint)scaled, count - 1u);
-    const AliasEntry entry = scene->light_alias[column];
-    const float rest = scaled - (float)column;
-    const bool kept = rest < entry.threshold;
-    *u = kept ? rest / entry.threshold : (rest - entry.threshold) / (1.0f - entry.threshold);
-    return kept ? column : entry.alias;
-}
 
 // A light's emission times what its texture, if it has one, says at a surface: as transport computes with it.
 static inline float3 textured_emission(const SurfaceView* scene, const Light* light, const Surface* surface)
@@ -156,7 +144,7 @@ static inline Ray segment(float3 from, float3 to)
     ray.origin = pack(from);
     ray.direction = pack(to - from);
     ray.t_max = 1.0f;
-    ray.unused = 0u;
+    ray.horizon = 0u;
     return ray;
 }
 
@@ -179,7 +167,8 @@ static inline float sphere_one_minus_cos(float radius, float distance_squared)
 // Area to solid angle [1/m^2 -> 1/sr].
 static inline float pdf_w_from_a(float pdf_a, float distance_squared, float cos_at_light) { return pdf_a * distance_squared / cos_at_light; }
 
-static inline bool sample_area_light(const SurfaceView* scene, const Surface* surface, const Light* light, float2 u, LightSample* sample)
+// probability: of the light's choice.
+static inline bool sample_area_light(const SurfaceView* scene, const Surface* surface, const Light* light, float probability, float2 u, LightSample* sample)
 {
     LightPoint point;
     if (light->type == LIGHT_SPHERE) {
@@ -199,7 +188,7 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
             point.normal = normalize(point.position - unpack(primitive.center));
             point.offset = OFFSET_PER_COORDINATE * (max_abs(unpack(primitive.center)) + primitive.radius);
             sample->direction = direction;
-            sample->pdf_w = light->probability / (2.0f * PI_F * one_minus_cos);
+            sample->pdf_w = probability / (2.0f * PI_F * one_minus_cos);
             sample->shadow_ray = segment_to(surface, direction, &point);
             sample->radiance = light_point_radiance(scene, light, &point) / sample->pdf_w;
             return true;
@@ -211,17 +200,21 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
     sample->direction = to_light * rsqrt(distance_squared);
     const float cos_at_light = -dot(sample->direction, point.normal);
     if (!(cos_at_light > 0.0f) || !(distance_squared > 0.0f)) return false;
-    sample->pdf_w = pdf_w_from_a(light->probability / light->area, distance_squared, cos_at_light);
+    sample->pdf_w = pdf_w_from_a(probability / light->area, distance_squared, cos_at_light);
     sample->radiance = light_point_radiance(scene, light, &point) / sample->pdf_w;
     sample->shadow_ray = segment_to(surface, sample->direction, &point);
     return true;
 }
 
-// Samples the lights as seen from a surface. False: no light that way.
-static inline bool sample_light(const SurfaceView* scene, const Surface* surface, float4 u, LightSample* sample)
+// Samples the lights as seen from a surface. `horizon`: of the surface (kernels/scene/horizon.h). words: position, choice.
+// False: no light that way.
+static inline bool sample_light(const SurfaceView* scene, const Surface* surface, uint horizon, uint4 words, LightSample* sample)
 {
-    float rest = u.z;
-    const Light light = scene->lights[choose_light(scene, &rest)];
+    const LightChoice choice = choose_light(scene, surface->position, horizon, words.z);
+    if (LIGHT_TREE && choice.light == NO_LIGHT) return false;
+    const float2 u = unit_float4(words).xy;
+    const float probability = choice.probability;
+    const Light light = scene->lights[choice.light];
     switch (light.type) {
     case LIGHT_POINT:
     case LIGHT_SPOT:
@@ -231,34 +224,34 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
         sample->direction = to_light * rsqrt(distance_squared);
         float3 intensity = transport_emission(scene, unpack(light.emission));
         if (light.type != LIGHT_POINT) intensity = projected_intensity(scene, &light, -sample->direction);
-        sample->radiance = intensity / (distance_squared * light.probability);
+        sample->radiance = intensity / (distance_squared * probability);
         sample->pdf_w = PDF_DELTA;
         sample->shadow_ray = segment(ray_origin(surface, sample->direction), unpack(light.position));
         return distance_squared > 0.0f && !is_black(intensity);
     }
     case LIGHT_DIRECTIONAL:
         sample->direction = -unpack(light.direction);
-        sample->radiance = transport_emission(scene, unpack(light.emission)) / light.probability;
+        sample->radiance = transport_emission(scene, unpack(light.emission)) / probability;
         sample->pdf_w = PDF_DELTA;
         sample->shadow_ray = ray_from(surface, sample->direction);
         return true;
     case LIGHT_CONSTANT:
-        sample->direction = sample_sphere(u.xy);
-        sample->pdf_w = light.probability * (0.25f * INV_PI_F);
+        sample->direction = sample_sphere(u);
+        sample->pdf_w = probability * (0.25f * INV_PI_F);
         sample->radiance = transport_emission(scene, unpack(light.emission)) / sample->pdf_w;
         sample->shadow_ray = ray_from(surface, sample->direction);
         return true;
 #if LIGHT_OCCURS(LIGHT_ENVMAP)
     case LIGHT_ENVMAP: {
         const EnvironmentMap map = scene->environment_maps[light.primitive];
-        const EnvironmentValue value = sample_environment_map(scene, &map, u.xy, rest, &sample->direction);
-        sample->pdf_w = light.probability * value.pdf_w;
+        const EnvironmentValue value = sample_environment_map(scene, &map, u, choice.rest, &sample->direction);
+        sample->pdf_w = probability * value.pdf_w;
         sample->radiance = transport_emission(scene, unpack(light.emission) * value.radiance) / sample->pdf_w;
         sample->shadow_ray = ray_from(surface, sample->direction);
         return value.pdf_w > 0.0f;
     }
 #endif
-    default: return sample_area_light(scene, surface, &light, u.xy, sample);
+    default: return sample_area_light(scene, surface, &light, probability, u, sample);
     }
 }
 
@@ -278,21 +271,23 @@ static inline float3 emitted_radiance(const SurfaceView* scene, const Surface* s
     return textured_emission(scene, &source, surface);
 }
 
-// Density (1/sr) with which sample_light, at the ray's origin, would have chosen the direction that hit
-// area light `light` here, `distance` away.
-static inline float light_pdf_w(const SurfaceView* scene, const Surface* surface, uint light_index, float3 origin)
+// Density (1/sr) with which sample_light, where the ray began, would have chosen the direction that hit area light
+// `light_index` here.
+static inline float light_pdf_w(const SurfaceView* scene, const Surface* surface, uint light_index, Ray ray)
 {
     const Light light = scene->lights[light_index];
+    const float3 origin = unpack(ray.origin);
+    const float probability = light_probability(scene, light_index, origin, ray.horizon);
     const float3 to_light = surface->position - origin;
     if (light.type == LIGHT_SPHERE) {
         const AnalyticPrimitive primitive = scene->analytics[light.primitive & ~ANALYTIC_BIT];
         const float3 to_center = unpack(primitive.center) - origin;
         const float one_minus_cos = sphere_one_minus_cos(primitive.radius, dot(to_center, to_center));
         const bool flipped = (scene->shapes[primitive.shape].flags & SHAPE_FLIP_NORMALS) != 0u;
-        if (one_minus_cos < 2.0f && !flipped) return light.probability / (2.0f * PI_F * one_minus_cos);
+        if (one_minus_cos < 2.0f && !flipped) return probability / (2.0f * PI_F * one_minus_cos);
     }
     const float cos_at_light = fabs(dot(surface->outgoing, surface->geometric_normal));
-    return pdf_w_from_a(light.probability / light.area, dot(to_light, to_light), fmax(cos_at_light, 1e-8f));
+    return pdf_w_from_a(probability / light.area, dot(to_light, to_light), fmax(cos_at_light, 1e-8f));
 }
 
 // Radiance of the environment from a direction (unit, away from the scene), and the density (1/sr) with which
@@ -312,7 +307,7 @@ static inline EnvironmentValue environment_value(const SurfaceView* scene, float
     }
 #endif
     value.radiance = transport_emission(scene, value.radiance * unpack(light.emission));
-    value.pdf_w *= light.probability;
+    value.pdf_w *= light_probability(scene, index, (float3)(0.0f), 0u); // the same from everywhere
     return value;
 }
 

@@ -207,7 +207,7 @@ static inline Ray ray_from(const Surface* surface, float3 direction)
     ray.origin = pack(ray_origin(surface, direction));
     ray.direction = pack(direction);
     ray.t_max = INFINITY;
-    ray.unused = 0u;
+    ray.horizon = 0u;
     return ray;
 }
 

@@ -14,6 +14,7 @@ static inline float3 read_texel(const SurfaceView* scene, const Texture* texture
 {
     const size_t index = (size_t)y * texture->width + x;
     if (texture->format == TEXELS_HALF) return vload_half4(0, (__global const half*)(scene->texels + texture->first_texel + 2u * index)).xyz;
+    if (texture->format == TEXELS_FLOAT) return vload3(0, (__global const float*)(scene->texels + texture->first_texel + 3u * index));
     const uint texel = scene->texels[texture->first_texel + index];
     const float3 value = convert_float3((uint3)(texel & 0xffu, (texel >> 8) & 0xffu, (texel >> 16) & 0xffu)) * (1.0f / 255.0f);
     if (texture->format == TEXELS_LINEAR) return value;

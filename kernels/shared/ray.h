@@ -10,7 +10,7 @@ typedef struct Ray {
     Vec3 origin;
     float t_max;
     Vec3 direction;
-    uint unused;
+    uint horizon; // of the surface that it leaves (kernels/scene/horizon.h), where lights are chosen by a tree; else 0
 } Ray;
 SHARED_SIZE(Ray, 32);
 

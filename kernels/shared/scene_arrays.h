@@ -7,6 +7,7 @@
 #include "shared/environment.h"
 #include "shared/geometry.h"
 #include "shared/light.h"
+#include "shared/light_tree.h"
 #include "shared/principled.h"
 #include "shared/ray.h"
 #include "shared/texture.h"
@@ -46,6 +47,7 @@ SHARED_SIZE(SceneGlobals, 152);
     X(Principled, principled)                                                                      \
     X(Light, lights)                                                                               \
     X(AliasEntry, light_alias)                                                                     \
+    X(LightNode, light_tree)                                                                       \
     X(LightProjection, light_projections)                                                          \
     X(EnvironmentMap, environment_maps)                                                            \
     X(AliasEntry, environment_alias)

@@ -28,6 +28,7 @@ SHARED_SIZE(TexturedNumber, 8);
 #define TEXELS_SRGB 0u   // a uint: red, green and blue in its low bytes, encoded by IEC 61966-2-1
 #define TEXELS_LINEAR 1u // the same, linear
 #define TEXELS_HALF 2u   // two uints: four half floats (red, green, blue, nothing), linear
+#define TEXELS_FLOAT 3u  // three uints: floats, linear
 
 #define WRAP_REPEAT 0u
 #define WRAP_MIRROR 1u

@@ -12,9 +12,9 @@ __kernel void emit_light_paths(SURFACE_PARAMETERS, SamplerKey key, uint count, _
 
     const SurfaceView scene = SURFACE_VIEW;
     Sampler sampler = light_sampler(key, path, count, 0u);
-    const float4 u = next_4d(&sampler);
+    const uint4 words = next_words(&sampler);
     const float4 u_direction = next_4d(&sampler);
-    const EmissionSample emission = sample_emission(&scene, u, u_direction.xy);
+    const EmissionSample emission = sample_emission(&scene, words, u_direction.xy);
     rays[path] = emission.ray;
     PathState state = {pack(emission.flux), PDF_DELTA, 1u, 0u, 1.0f, emission.from_delta_light ? PATH_FROM_DELTA_LIGHT : 0u};
     paths[path] = state;

@@ -72,14 +72,14 @@ __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rul
 
     const uint2 pixel = pixel_of_path(index, width, height);
     Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
-    const float4 u = next_4d(&sampler);
-    Scattering scattering = scattering_at(&scene, &surface, u.w);
+    const uint4 words = next_words(&sampler);
+    Scattering scattering = scattering_at(&scene, &surface, unit_float(words.w));
     disperse(camera_hero(key, index), &path, &scattering);
     if (is_black_side(&scattering)) return;
 #if DIRECT_LIGHT
     if (!is_specular(&scattering)) {
         Ray shadow_ray;
-        shadow_radiance[index] = pack(throughput * sample_direct_light(&scene, &surface, &scattering, u, is_narrow(&scattering), &shadow_ray));
+        shadow_radiance[index] = pack(throughput * sample_direct_light(&scene, &surface, &scattering, words, is_narrow(&scattering), &shadow_ray));
         shadow_rays[index] = shadow_ray;
     }
 #endif

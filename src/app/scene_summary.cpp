@@ -61,6 +61,7 @@ const char* filter_name(FilterKind filter)
     case FilterKind::tent: return "tent";
     case FilterKind::gaussian: return "gaussian";
     case FilterKind::mitchell: return "mitchell";
+    case FilterKind::lanczos: return "lanczos";
     }
     return "";
 }
@@ -70,7 +71,7 @@ template <class T> std::uint64_t bytes_of(const std::vector<T>& array) { return 
 std::uint64_t device_bytes(const FlatScene& flat, const Bvh& bvh)
 {
     return bytes_of(flat.positions) + bytes_of(flat.normals) + bytes_of(flat.triangles) + bytes_of(flat.analytics) + bytes_of(flat.shapes) + bytes_of(flat.bsdfs) + bytes_of(flat.principled) +
-           bytes_of(flat.lights) + bytes_of(flat.light_alias) + bytes_of(flat.light_projections) + bytes_of(flat.environment_maps) +
+           bytes_of(flat.lights) + bytes_of(flat.light_alias) + bytes_of(flat.light_tree) + bytes_of(flat.light_projections) + bytes_of(flat.environment_maps) +
            bytes_of(flat.environment_alias) + bytes_of(flat.uvs) + bytes_of(flat.textures) + bytes_of(flat.texels) + bytes_of(flat.attribute_ranges) +
            bytes_of(flat.attribute_values) + sizeof(SceneGlobals) + bytes_of(bvh.instances) + bytes_of(bvh.nodes) + bytes_of(bvh.blocks);
 }

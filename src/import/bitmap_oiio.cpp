@@ -50,27 +50,39 @@ std::vector<uint> pack_bytes(const std::vector<unsigned char>& pixels, int chann
     return texels;
 }
 
-uint half_bits(float value, bool& clipped)
-{
-    if (!(std::abs(value) <= largest_half)) { // also for NaN
-        clipped = true;
-        value = std::isnan(value) ? 0.0f : std::copysign(largest_half, value);
-    }
-    return half_from_float(value);
-}
-
-std::vector<uint> pack_halves(const std::vector<float>& pixels, int channels, bool encoded, bool& clipped)
+// Red, green and blue of all pixels, linear and finite.
+std::vector<float> linear_values(const std::vector<float>& pixels, int channels, bool encoded, bool& replaced)
 {
     const auto rgb = rgb_of(channels);
-    std::vector<uint> texels;
-    texels.reserve(2 * pixels.size() / static_cast<std::size_t>(channels));
+    std::vector<float> values;
+    values.reserve(3 * pixels.size() / static_cast<std::size_t>(channels));
     for (std::size_t i = 0; i < pixels.size(); i += static_cast<std::size_t>(channels)) {
-        uint half[3];
-        for (std::size_t c = 0; c < 3; c++) half[c] = half_bits(encoded ? linear_from_srgb(pixels[i + rgb[c]]) : pixels[i + rgb[c]], clipped);
-        texels.push_back(half[0] | half[1] << 16);
-        texels.push_back(half[2]);
+        for (const std::size_t channel : rgb) {
+            float value = encoded ? linear_from_srgb(pixels[i + channel]) : pixels[i + channel];
+            if (!std::isfinite(value)) {
+                replaced = true;
+                value = std::isnan(value) ? 0.0f : std::copysign(largest_half, value);
+            }
+            values.push_back(value);
+        }
     }
-    return texels;
+    return values;
+}
+
+// In half floats if they can hold all of them.
+void pack_floats(const std::vector<float>& values, TexelImage& image)
+{
+    const bool fit = std::all_of(values.begin(), values.end(), [](float value) { return std::abs(value) <= largest_half; });
+    image.format = fit ? TexelFormat::half : TexelFormat::float32;
+    image.texels.reserve(values.size() / 3 * image.words_per_texel());
+    for (std::size_t i = 0; i < values.size(); i += 3) {
+        if (fit) {
+            image.texels.push_back(half_from_float(values[i]) | static_cast<uint>(half_from_float(values[i + 1])) << 16);
+            image.texels.push_back(half_from_float(values[i + 2]));
+        } else {
+            for (std::size_t c = 0; c < 3; c++) image.texels.push_back(std::bit_cast<uint>(values[i + c]));
+        }
+    }
 }
 
 OIIO::TypeDesc file_type(TexelFormat format)
@@ -113,7 +125,7 @@ template <class T> std::vector<T> unpack(const TexelImage& image)
 
 } // namespace
 
-TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& wanted_at, bool raw, bool& clipped)
+TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& wanted_at, bool raw, bool& replaced)
 {
     const auto input = open_plane(file, wanted_at);
     const OIIO::ImageSpec& spec = input->spec();
@@ -126,8 +138,7 @@ TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& 
         return image;
     }
     const bool encoded = !raw && !spec.format.is_floating_point();
-    image.format = TexelFormat::half;
-    image.texels = pack_halves(read_pixels<float>(*input, OIIO::TypeDesc::FLOAT, file, wanted_at), spec.nchannels, encoded, clipped);
+    pack_floats(linear_values(read_pixels<float>(*input, OIIO::TypeDesc::FLOAT, file, wanted_at), spec.nchannels, encoded, replaced), image);
     return image;
 }
 

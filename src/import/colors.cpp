@@ -1,14 +1,14 @@
 #include "import/colors.h"
 
+#include "import/object_reader.h"
+#include "import/spectrum_samples.h"
 #include "import/text_file.h"
 #include "import/values.h"
 #include "math/srgb.h"
-#include "scene/spectrum.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <sstream>
 
 namespace sundog
 {
@@ -16,9 +16,7 @@ namespace sundog
 namespace
 {
 
-using Samples = std::vector<SpectrumSample>;
-
-Vec3 reduce(const Samples& samples, ColorRole role)
+Vec3 reduce(const SpectrumSamples& samples, ColorRole role)
 {
     switch (role) {
     case ColorRole::reflectance:
@@ -71,49 +69,6 @@ Vec3 read_srgb(const XmlElement& element)
     return {linear_from_srgb(encoded.x), linear_from_srgb(encoded.y), linear_from_srgb(encoded.z)};
 }
 
-void check_samples(const Samples& samples, const SourceLocation& where)
-{
-    if (samples.size() < 2) throw SceneError(where, "a spectrum needs at least two wavelength:value pairs");
-    for (std::size_t i = 0; i < samples.size(); i++) {
-        if (i > 0 && samples[i].wavelength <= samples[i - 1].wavelength)
-            throw SceneError(where, "the wavelengths of a spectrum must increase");
-        if (samples[i].value < 0.0) throw SceneError(where, "a spectrum must not have negative values");
-    }
-}
-
-Samples parse_pairs(const XmlElement& element, const std::vector<std::string_view>& pairs)
-{
-    Samples samples;
-    for (std::string_view pair : pairs) {
-        const std::size_t colon = pair.find(':');
-        const auto wavelength = parse_number(pair.substr(0, colon));
-        const auto value = colon == std::string_view::npos ? std::nullopt : parse_number(pair.substr(colon + 1));
-        if (!wavelength || !value)
-            throw SceneError(element.where, "a spectrum must be one number or pairs wavelength:value, got '" + std::string(pair) + "'");
-        samples.push_back({*wavelength, *value});
-    }
-    check_samples(samples, element.where);
-    return samples;
-}
-
-// Lines of a wavelength (nm) and a value; # starts a comment.
-Samples read_spectrum_file(const std::filesystem::path& file, const SourceLocation& where)
-{
-    std::istringstream content(read_text_file(file, where));
-    Samples samples;
-    std::string line;
-    for (int number = 1; std::getline(content, line); number++) {
-        const auto words = tokens(std::string_view(line).substr(0, line.find('#')));
-        if (words.empty()) continue;
-        const auto wavelength = parse_number(words[0]);
-        const auto value = words.size() == 2 ? parse_number(words[1]) : std::nullopt;
-        if (!wavelength || !value) throw SceneError({file.string(), number}, "a line of a spectrum must be a wavelength and a value");
-        samples.push_back({*wavelength, *value});
-    }
-    check_samples(samples, {file.string(), 0});
-    return samples;
-}
-
 double kelvins(const XmlElement& element, std::string text)
 {
     if (!text.empty() && (text.back() == 'K' || text.back() == 'k')) text.pop_back();
@@ -130,34 +85,72 @@ Vec3 read_blackbody(const XmlElement& element)
     return blackbody_to_rgb(kelvins(element, *element.attribute("temperature"))) * static_cast<float>(scale);
 }
 
-// <spectrum type="..."> with parameters inside.
-Vec3 read_spectrum_object(const XmlElement& element, const SceneIndex& index)
+// Numbers in a <string>.
+std::vector<double> read_list(ObjectReader& reader, const char* name)
 {
-    const std::string& type = *element.attribute("type");
-    const std::string wanted = type == "blackbody" ? "temperature" : "value";
-    if (type != "blackbody" && type != "uniform")
-        throw SceneError(element.where, "spectrum plugin '" + type + "' is not supported; supported are blackbody, uniform");
-    const XmlElement* main = nullptr;
-    double scale = 1.0;
-    for (const auto& child : element.children) {
-        const std::string name = child.parameter_name();
-        if (child.tag != "float" && child.tag != "integer") throw SceneError(child.where, "unexpected <" + child.tag + "> in a spectrum");
-        if (name == wanted)
-            main = &child;
-        else if (name == "scale")
-            scale = number_attribute(child, "value");
-        else
-            index.warn(child.where, "parameter '" + name + "' of spectrum '" + type + "' is not known and was ignored", WarningKind::ignored);
+    const std::string text = reader.text(name, "");
+    std::vector<double> list;
+    for (const std::string_view word : tokens(text)) {
+        const auto number = parse_number(word);
+        if (!number) throw SceneError(reader.where_of(name), "'" + std::string(name) + "' of a spectrum must be numbers, got '" + std::string(word) + "'");
+        list.push_back(*number);
     }
-    if (!main) throw SceneError(element.where, "spectrum '" + type + "' needs a <float name=\"" + wanted + "\">");
-    const double value = number_attribute(*main, "value");
-    if (type == "uniform") return gray(value * scale);
-    return blackbody_to_rgb(kelvins(*main, *main->attribute("value"))) * static_cast<float>(scale);
+    return list;
+}
+
+SpectrumSamples read_irregular(ObjectReader& reader)
+{
+    if (reader.has("filename")) return read_spectrum_file(reader.index().find_file(reader.text("filename", ""), reader.where_of("filename")), reader.where());
+    return spectrum_of(read_list(reader, "wavelengths"), read_list(reader, "values"), reader.where());
+}
+
+// Evenly spaced between two wavelengths.
+SpectrumSamples read_regular(ObjectReader& reader)
+{
+    const double shortest = reader.number("wavelength_min", 360.0), longest = reader.number("wavelength_max", 830.0);
+    const std::vector<double> values = read_list(reader, "values");
+    std::vector<double> wavelengths;
+    for (std::size_t i = 0; i < values.size(); i++)
+        wavelengths.push_back(shortest + (longest - shortest) * static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(values.size(), 2) - 1));
+    return spectrum_of(wavelengths, values, reader.where());
+}
+
+double required_number(ObjectReader& reader, const char* name)
+{
+    if (!reader.has(name)) throw SceneError(reader.where(), reader.describe() + " needs a <float name=\"" + name + "\">");
+    return reader.number(name, 0.0);
+}
+
+// <spectrum type="..."> with parameters inside.
+Vec3 read_spectrum_object(const XmlElement& element, const SceneIndex& index, ColorRole role)
+{
+    ObjectReader reader(element, index);
+    const std::string type = reader.type();
+    const auto scale = [&] { return static_cast<float>(reader.number("scale", 1.0)); };
+    Vec3 color;
+    if (type == "blackbody") {
+        required_number(reader, "temperature");
+        color = blackbody_to_rgb(kelvins(*reader.find("temperature"), *reader.find("temperature")->attribute("value"))) * scale();
+    } else if (type == "uniform") {
+        color = gray(required_number(reader, "value")) * scale();
+    } else if (type == "d65") { // white, and white light of a colour is that colour
+        color = reader.color("color", {1, 1, 1}, ColorRole::emission) * scale();
+    } else if (type == "srgb") {
+        color = reader.color("color", {1, 1, 1}, role);
+    } else if (type == "irregular") {
+        color = reduce(read_irregular(reader), role);
+    } else if (type == "regular") {
+        color = reduce(read_regular(reader), role);
+    } else {
+        reader.unsupported("blackbody, d65, irregular, regular, srgb, uniform");
+    }
+    reader.finish();
+    return color;
 }
 
 Vec3 read_spectrum(const XmlElement& element, const SceneIndex& index, ColorRole role)
 {
-    if (element.attribute("type")) return read_spectrum_object(element, index);
+    if (element.attribute("type")) return read_spectrum_object(element, index, role);
     check_attributes(element, {}, {"name", "value", "filename", "intent"});
     const std::string* value = element.attribute("value");
     const std::string* filename = element.attribute("filename");
@@ -170,7 +163,7 @@ Vec3 read_spectrum(const XmlElement& element, const SceneIndex& index, ColorRole
         if (role != ColorRole::emission || index.legacy()) return gray(number);
         return linear_srgb_from_xyz(number, number, number);
     }
-    return reduce(parse_pairs(element, words), role);
+    return reduce(parse_spectrum_pairs(element, words), role);
 }
 
 Vec3 read_unchecked(const XmlElement& element, const SceneIndex& index, ColorRole role)

@@ -31,8 +31,12 @@ ReconstructionFilter read_filter(ObjectReader& reader)
         filter.kind = FilterKind::mitchell; // of which it is the case B = 0, C = 1/2
         filter.b = 0.0f;
         filter.c = 0.5f;
+    } else if (type == "lanczos") {
+        filter.kind = FilterKind::lanczos;
+        filter.radius = static_cast<float>(reader.integer("lobes", 3));
+        if (!(filter.radius >= 1.0f)) throw SceneError(reader.where_of("lobes"), "a lanczos filter must have at least one lobe");
     } else {
-        reader.unsupported("box, tent, gaussian, mitchell, catmullrom");
+        reader.unsupported("box, tent, gaussian, mitchell, catmullrom, lanczos");
     }
     if (filter.radius > 32.0f) throw SceneError(reader.where(), "the radius of a reconstruction filter must be at most 32 pixels");
     reader.finish();

@@ -31,6 +31,7 @@ public:
 
     // Values by snake_case name. Each throws SceneError, at the parameter's line, for a wrong type or value.
     bool has(std::string_view name) const { return find(name) != nullptr; }
+    const XmlElement* find(std::string_view name) const; // nullptr without one
     SourceLocation where_of(std::string_view name) const; // the object's own without the parameter
     double number(std::string_view name, double fallback);
     double positive(std::string_view name, double fallback); // > 0
@@ -66,7 +67,6 @@ public:
     const SceneIndex& index() const { return index_; }
 
 private:
-    const XmlElement* find(std::string_view name) const;
     const XmlElement* take(std::string_view name, std::initializer_list<std::string_view> tags);
 
     const XmlElement& element_;

@@ -4,6 +4,7 @@
 #include "math/direction.h"
 #include "scene/sensor_pose.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace sundog
@@ -32,6 +33,9 @@ void write_filter(ObjectWriter film, const ReconstructionFilter& filter)
         mitchell.number("c", filter.c);
         return;
     }
+    case FilterKind::lanczos:
+        film.object("rfilter", "lanczos").integer("lobes", std::lround(filter.radius));
+        return;
     }
     throw std::logic_error("a reconstruction filter that cannot be written");
 }

@@ -2,8 +2,11 @@
 
 #include "math/half.h"
 #include "math/srgb.h"
+#include "scene/texel_values.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <map>
 
 namespace sundog
@@ -12,24 +15,12 @@ namespace sundog
 namespace
 {
 
-Vec3 linear_texel(const TexelImage& image, int x, int y)
-{
-    const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
-    if (image.format == TexelFormat::half) {
-        const uint low = image.texels[2 * index], high = image.texels[2 * index + 1];
-        const auto number = [](uint bits) { return float_from_half(static_cast<std::uint16_t>(bits)); };
-        return {number(low & 0xffff), number(low >> 16), number(high & 0xffff)};
-    }
-    const uint texel = image.texels[index];
-    const auto channel = [&](int shift) {
-        const float fraction = static_cast<float>((texel >> shift) & 0xff) / 255.0f;
-        return image.format == TexelFormat::srgb8 ? linear_from_srgb(fraction) : fraction;
-    };
-    return {channel(0), channel(8), channel(16)};
-}
-
 void append_texel(TexelImage& image, Vec3 color)
 {
+    if (image.format == TexelFormat::float32) {
+        for (const float channel : {color.x, color.y, color.z}) image.texels.push_back(std::bit_cast<uint>(channel));
+        return;
+    }
     if (image.format == TexelFormat::half) {
         image.texels.push_back(half_from_float(color.x) | static_cast<uint>(half_from_float(color.y)) << 16);
         image.texels.push_back(half_from_float(color.z));
@@ -88,7 +79,7 @@ TexelImage halved(const TexelImage& image)
             const int left = x * image.width / half.width, right = (x + 1) * image.width / half.width;
             Vec3 sum{0, 0, 0};
             for (int j = top; j < bottom; j++)
-                for (int i = left; i < right; i++) sum = sum + linear_texel(image, i, j);
+                for (int i = left; i < right; i++) sum = sum + linear_texel(image, static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(i));
             append_texel(half, sum / static_cast<float>((right - left) * (bottom - top)));
         }
     }

@@ -59,7 +59,23 @@ void read_uv_transform(ObjectReader& reader, TextureDescription& texture)
 ColorSource TextureImporter::color(ObjectReader& reader, std::string_view name, Vec3 fallback, ColorRole role)
 {
     if (const auto texture = reader.object(name, "texture")) return import(*texture->object);
+    if (const auto daylight = textured_daylight(reader, name)) return *daylight;
     return reader.color(name, fallback, role);
+}
+
+std::optional<ColorSource> TextureImporter::textured_daylight(ObjectReader& reader, std::string_view name)
+{
+    const XmlElement* value = reader.find(name);
+    const std::string* type = value && value->tag == "spectrum" ? value->attribute("type") : nullptr;
+    if (!type || *type != "d65") return {};
+    ObjectReader daylight(*value, index_);
+    const auto texture = daylight.object("color", "texture");
+    if (!texture) return {};
+    reader.object(name, "spectrum"); // asked for
+    ColorSource source = import(*texture->object);
+    source.value = source.value * static_cast<float>(daylight.number("scale", 1.0));
+    daylight.finish();
+    return source;
 }
 
 NumberSource TextureImporter::number(ObjectReader& reader, std::string_view name, double fallback, double least, double most)
@@ -136,9 +152,9 @@ BitmapTexture TextureImporter::read_bitmap(ObjectReader& reader)
     const bool raw = reader.boolean("raw", gamma == 1.0);
     auto& image = images_[{file, raw}];
     if (!image) {
-        bool clipped = false;
-        image = std::make_shared<const TexelImage>(load_bitmap(file, reader.where_of("filename"), raw, clipped));
-        if (clipped) index_.warn(reader.where_of("filename"), "values of '" + file.string() + "' that are not finite or beyond 65504 were clamped",
+        bool replaced = false;
+        image = std::make_shared<const TexelImage>(load_bitmap(file, reader.where_of("filename"), raw, replaced));
+        if (replaced) index_.warn(reader.where_of("filename"), "values of '" + file.string() + "' that are not finite were replaced: NaN by 0, infinity by 65504",
                                       WarningKind::approximated);
     }
     bitmap.image = image;

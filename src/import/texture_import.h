@@ -26,6 +26,8 @@ public:
     double aspect(uint texture) const;
 
 private:
+    // <spectrum type="d65"> whose colour is a texture.
+    std::optional<ColorSource> textured_daylight(ObjectReader& reader, std::string_view name);
     // The texture, and what its value has to be multiplied by (0.6's <texture type="scale">).
     ColorSource import(const XmlElement& element);
     ColorSource add(const XmlElement& element, ObjectReader& reader, decltype(TextureDescription::model) model);

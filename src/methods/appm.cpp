@@ -87,7 +87,7 @@ const MethodRegistration registration({
     .description = "Every pixel learns bias and variance of its estimates and chooses the radius that balances them, at most that of the "
                    "global schedule. "
                    "`radius` is the largest: choose it wide.",
-    .parameters = {photons_spec(), radius_spec(), kernel_spec(), direct_spec(), max_depth_spec(),
+    .parameters = {photons_spec(), radius_spec(), kernel_spec(), direct_spec(), light_choice_spec(), max_depth_spec(),
                    rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), iterations_spec()},
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<AdaptiveProgressivePhotonMapping>(context, parameters);

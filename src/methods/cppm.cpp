@@ -115,7 +115,7 @@ const MethodRegistration registration({
     .description = "Every pixel tests whether the photons it finds lie evenly, and shrinks its radius only where they do not. Keeps wide "
                    "radii, and so little "
                    "noise, where light is even.",
-    .parameters = {photons_spec(), radius_spec(), significance_spec(), shrink_spec(), first_test_spec(), direct_spec(), max_depth_spec(),
+    .parameters = {photons_spec(), radius_spec(), significance_spec(), shrink_spec(), first_test_spec(), direct_spec(), light_choice_spec(), max_depth_spec(),
                    rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), spectral_spec(), iterations_spec()},
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<ChiSquaredProgressivePhotonMapping>(context, parameters);

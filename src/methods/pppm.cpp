@@ -52,7 +52,7 @@ const MethodRegistration registration({
     .description = "Averages independent photon-mapping renders whose radius shrinks from one to the next. Renders caustics and light seen "
                    "through glass; "
                    "the reference among the progressive methods.",
-    .parameters = {photons_spec(), radius_spec(), alpha_spec(), kernel_spec(), direct_spec(), max_depth_spec(),
+    .parameters = {photons_spec(), radius_spec(), alpha_spec(), kernel_spec(), direct_spec(), light_choice_spec(), max_depth_spec(),
                    rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), spectral_spec(), iterations_spec()},
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<ProbabilisticProgressivePhotonMapping>(context, parameters);

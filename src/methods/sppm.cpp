@@ -59,7 +59,7 @@ const MethodRegistration registration({
     .description =
         "Every pixel keeps its own radius, which shrinks with the photons it has found. Renders caustics and light seen through glass with "
         "depth of field and antialiasing; a good default.",
-    .parameters = {photons_spec(), radius_spec(), alpha_spec(), direct_spec(), max_depth_spec(),
+    .parameters = {photons_spec(), radius_spec(), alpha_spec(), direct_spec(), light_choice_spec(), max_depth_spec(),
                    rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), spectral_spec(), iterations_spec()},
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<StochasticProgressivePhotonMapping>(context, parameters);

@@ -62,6 +62,14 @@ ParameterSpec direct_spec()
             "Light that reaches a surface straight from its source: by next-event estimation, or by photons as all other light.", 0, 0, {"nee", "photons"}};
 }
 
+ParameterSpec light_choice_spec()
+{
+    return {"light_choice", ParameterType::choice, "auto", "",
+            "How next-event estimation chooses a light: for each point by a tree (Conty Estevez and Kulla 2018), or by power alone; auto: by a tree where "
+            "lights are many.",
+            0, 0, {"auto", "tree", "power"}};
+}
+
 ParameterSpec kernel_spec()
 {
     return {"kernel", ParameterType::choice, "epanechnikov", "", "Smoothing kernel of the density estimate (Silverman 1986).", 0, 0,
@@ -83,6 +91,13 @@ PathRules path_rules(const Parameters& parameters)
 SamplerKind sampler_kind(const Parameters& parameters)
 {
     return parameters.text("sampler") == "sobol" ? SamplerKind::sobol : SamplerKind::independent;
+}
+
+LightSelection light_selection(const Parameters& parameters)
+{
+    if (!parameters.has("light_choice")) return LightSelection::power;
+    const std::string& choice = parameters.text("light_choice");
+    return choice == "tree" ? LightSelection::tree : choice == "power" ? LightSelection::power : LightSelection::automatic;
 }
 
 bool is_spectral(const Parameters& parameters)

@@ -3,6 +3,7 @@
 
 #include "math/bounds.h"
 #include "methods/parameters.h"
+#include "scene/light_tree.h"
 #include "shared/camera.h"
 #include "shared/path.h"
 #include "stages/sampling.h"
@@ -17,11 +18,13 @@ ParameterSpec photons_spec();
 ParameterSpec radius_spec();
 ParameterSpec alpha_spec();
 ParameterSpec direct_spec();
+ParameterSpec light_choice_spec();
 ParameterSpec kernel_spec();
 ParameterSpec spectral_spec();
 
 PathRules path_rules(const Parameters& parameters); // of max_depth and rr_depth
 SamplerKind sampler_kind(const Parameters& parameters);
+LightSelection light_selection(const Parameters& parameters); // by power for methods that have no such parameter
 bool is_spectral(const Parameters& parameters); // false for methods that have no such parameter
 int density_kernel(const Parameters& parameters); // as DENSITY_KERNEL
 

@@ -95,7 +95,7 @@ struct RenderSession::State {
     State(Scene scene_in, Device& device_in, const RenderSettings& settings)
         : scene(sized_scene(std::move(scene_in), settings, device_in.info())), device(device_in), info(choose_method(scene, settings)),
           parameters(choose_parameters(scene, settings, info)), seed(settings.seed.value_or(scene.integrator.seed)),
-          device_scene(device, scene, is_spectral(parameters)), camera(make_camera(scene.sensor, scene.film)),
+          device_scene(device, scene, is_spectral(parameters), light_selection(parameters)), camera(make_camera(scene.sensor, scene.film)),
           filter(make_pixel_filter(scene.film.filter)), film(device, scene.film.crop_width, scene.film.crop_height),
           motion(device_scene, scene, camera, seed),
           spectral(device, device_scene, seed), context{device, device_scene, camera, filter, film, spectral, seed},

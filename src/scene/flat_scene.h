@@ -44,7 +44,9 @@ struct FlatScene {
     std::vector<Bsdf> bsdfs;
     std::vector<Principled> principled; // parameters of those BSDFs that are
     std::vector<Light> lights;
+    std::vector<float> light_strengths; // one a light: the greatest component of its emission, in the mean over its texture
     std::vector<AliasEntry> light_alias; // one a light
+    std::vector<LightNode> light_tree; // empty where lights are chosen by power: light_tree.h fills it
     std::vector<LightProjection> light_projections;
     std::vector<EnvironmentMap> environment_maps; // at most one
     std::vector<AliasEntry> environment_alias; // one a patch

@@ -85,7 +85,8 @@ private:
 
 void flatten_textures(const Scene& scene, FlatScene& flat)
 {
-    static_assert(static_cast<uint>(TexelFormat::half) == TEXELS_HALF && static_cast<uint>(TexelFormat::linear8) == TEXELS_LINEAR);
+    static_assert(static_cast<uint>(TexelFormat::half) == TEXELS_HALF && static_cast<uint>(TexelFormat::linear8) == TEXELS_LINEAR &&
+                  static_cast<uint>(TexelFormat::float32) == TEXELS_FLOAT);
     static_assert(static_cast<uint>(WrapMode::mirror) == WRAP_MIRROR && static_cast<uint>(WrapMode::clamp) == WRAP_CLAMP);
     static_assert(static_cast<uint>(TextureFilter::bilinear) == FILTER_BILINEAR);
     TextureFlattener(scene, flat).run();

@@ -1,7 +1,9 @@
 #include "scene/light_list.h"
 
 #include "scene/flatten_environment.h"
+#include "scene/texel_values.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace sundog {
@@ -133,11 +135,30 @@ struct EmitterFlattener {
     FlatScene& flat;
 };
 
-// Flux (W) into the scene, whose bounding sphere's radius bounds what distant lights send.
-double power_of(const Light& light, double scene_radius)
+// Fills light_strengths. A texture is averaged once for all lights of one mesh.
+void list_strengths(const Scene& scene, FlatScene& flat)
+{
+    const auto strength = [&](const Light& light, const TriangleMesh* mesh) {
+        return max_component(light.texture == NO_TEXTURE ? light.emission : light.emission * mean_color(scene, light.texture, mesh));
+    };
+    flat.light_strengths.resize(flat.lights.size());
+    std::size_t area_lights = 0;
+    for (std::size_t i = 0; i < scene.shapes.size(); i++) {
+        if (!scene.shapes[i].emitter) continue;
+        const auto* mesh = std::get_if<TriangleMesh>(&scene.shapes[i].geometry);
+        const std::size_t first = flat.shapes[i].first_light, count = mesh ? mesh->triangles.size() : 1;
+        if (count == 0) continue;
+        std::fill_n(flat.light_strengths.begin() + static_cast<std::ptrdiff_t>(first), count, strength(flat.lights[first], mesh));
+        area_lights += count;
+    }
+    for (std::size_t i = area_lights; i < flat.lights.size(); i++) flat.light_strengths[i] = strength(flat.lights[i], nullptr);
+}
+
+// Flux (W) into the scene, whose bounding sphere's radius bounds what distant lights send. emission: the light's own,
+// times the mean of its texture.
+double power_of(const Light& light, double emission, double scene_radius)
 {
     const double disk = pi * scene_radius * scene_radius;
-    const double emission = max_component(light.emission);
     switch (light.type) {
     case LIGHT_POINT: return emission * 4.0 * pi;
     // Half of the fall-off region counts: near enough for a probability.
@@ -223,8 +244,10 @@ void list_lights(const Scene& scene, FlatScene& flat)
         if (type == LIGHT_CONSTANT || type == LIGHT_ENVMAP) flat.globals.environment_light = static_cast<uint>(flat.lights.size() - 1);
     }
 
+    list_strengths(scene, flat);
     std::vector<double> powers;
-    for (const Light& light : flat.lights) powers.push_back(power_of(light, flat.globals.radius));
+    for (std::size_t i = 0; i < flat.lights.size(); i++)
+        powers.push_back(power_of(flat.lights[i], static_cast<double>(flat.light_strengths[i]), flat.globals.radius));
     const std::vector<double> chances = light_chances(powers, emitter_starts);
     if (chances.empty()) throw SceneError({scene.file, 0}, "no light has any power; add an <emitter> with a positive radiance or intensity");
     std::vector<float> probabilities;

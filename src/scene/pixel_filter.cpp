@@ -1,5 +1,7 @@
 #include "scene/flat_scene.h"
 
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace sundog {
@@ -26,6 +28,11 @@ double evaluate(const ReconstructionFilter& filter, double x)
         const double b = filter.b, c = filter.c;
         if (t < 1.0) return ((12 - 9 * b - 6 * c) * t * t * t + (-18 + 12 * b + 6 * c) * t * t + (6 - 2 * b)) / 6.0;
         return ((-b - 6 * c) * t * t * t + (6 * b + 30 * c) * t * t + (-12 * b - 48 * c) * t + (8 * b + 24 * c)) / 6.0;
+    }
+    case FilterKind::lanczos: { // sinc x in the window of a sinc of the radius [Duchon 1979]
+        if (a < 1e-6) return 1.0;
+        const double t = std::numbers::pi * a;
+        return std::sin(t) / t * std::sin(t / radius) / (t / radius);
     }
     }
     return 0.0;

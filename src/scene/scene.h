@@ -96,7 +96,7 @@ struct NumberSource {
     bool may_be_positive() const { return texture || value > 0.0f; }
 };
 
-enum class TexelFormat { srgb8, linear8, half, float32 }; // as TEXELS_... of kernels/shared/texture.h; float32 of environments alone
+enum class TexelFormat { srgb8, linear8, half, float32 }; // as TEXELS_... of kernels/shared/texture.h
 enum class WrapMode { repeat, mirror, clamp };
 enum class TextureFilter { nearest, bilinear };
 
@@ -352,7 +352,7 @@ struct Sensor {
     std::optional<AnimatedTransform> motion = std::nullopt;
 };
 
-enum class FilterKind { box, tent, gaussian, mitchell };
+enum class FilterKind { box, tent, gaussian, mitchell, lanczos };
 
 struct ReconstructionFilter {
     FilterKind kind = FilterKind::gaussian;
@@ -360,6 +360,7 @@ struct ReconstructionFilter {
     float stddev = 0.5f; // gaussian
     float b = 1.0f / 3.0f; // mitchell
     float c = 1.0f / 3.0f;
+    // lanczos: its radius is its number of lobes
 };
 
 struct Film {

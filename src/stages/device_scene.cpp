@@ -21,6 +21,7 @@ BuildOptions surface_options(const FlatScene& flat, bool spectral)
     options.defines.emplace_back("LOBE_TYPES", std::to_string(lobe_types(flat.bsdfs)) + "u");
     options.defines.emplace_back("LIGHT_TYPES", std::to_string(light_types(flat)) + "u");
     options.defines.emplace_back("HAS_UV", needs_texture_coordinates(flat) ? "1" : "0");
+    if (!flat.light_tree.empty()) options.defines.emplace_back("LIGHT_TREE", "1");
     if (!flat.instances.empty()) options.defines.emplace_back("HAS_INSTANCES", "1");
     // Without these definitions the programs are those of RGB transport, to the last bit.
     if (spectral) options.defines.emplace_back("SPECTRAL", "1");
@@ -28,11 +29,19 @@ BuildOptions surface_options(const FlatScene& flat, bool spectral)
     return options;
 }
 
-} // namespace
-
-DeviceScene::DeviceScene(Device& device, const Scene& scene, bool spectral) : spectral_(spectral)
+FlatScene flatten(const Scene& scene, LightSelection selection)
 {
     FlatScene flat = flatten_scene(scene);
+    const bool many = flat.lights.size() >= lights_for_a_tree;
+    if (selection == LightSelection::tree || (selection == LightSelection::automatic && many)) flat.light_tree = build_light_tree(flat);
+    return flat;
+}
+
+} // namespace
+
+DeviceScene::DeviceScene(Device& device, const Scene& scene, bool spectral, LightSelection selection) : spectral_(spectral)
+{
+    FlatScene flat = flatten(scene, selection);
     const Bvh bvh = build_scene_bvh(flat);
     bounds_ = bvh.bounds;
     trace_options_ = sundog::trace_options(flat.analytics, flat.instances);

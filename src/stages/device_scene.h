@@ -3,15 +3,16 @@
 #pragma once
 
 #include "scene/flat_scene.h"
+#include "scene/light_tree.h"
 #include "stages/geometry_buffers.h"
 
 namespace sundog {
 
 class DeviceScene {
 public:
-    // Builds the hierarchy and uploads everything. spectral: kernels compute with wavelengths, which set_wavelengths()
+    // Builds the hierarchies and uploads everything. spectral: kernels compute with wavelengths, which set_wavelengths()
     // has to choose before each pass.
-    DeviceScene(Device& device, const Scene& scene, bool spectral = false);
+    DeviceScene(Device& device, const Scene& scene, bool spectral = false, LightSelection selection = LightSelection::automatic);
 
     bool is_spectral() const { return spectral_; }
     void set_wavelengths(const Wavelengths& wavelengths);

@@ -69,7 +69,7 @@ private:
             uint i = get_global_id(0);
             if (i >= count) return;
             const SurfaceView scene = SURFACE_VIEW;
-            const EmissionSample sample = sample_emission(&scene, random4(i, 21u), random4(i, 22u).xy);
+            const EmissionSample sample = sample_emission(&scene, random_words(i, 21u), random4(i, 22u).xy);
             rays[i] = sample.ray;
             flux[i] = pack(sample.flux);
         })");

@@ -48,7 +48,7 @@ protected:
                 surface.offset = OFFSET_PER_COORDINATE * max_abs(surface.position);
                 surface.shape = surface.primitive = 0u;
                 LightSample sample;
-                const bool lit = sample_light(&scene, &surface, random4(i, 11u), &sample);
+                const bool lit = sample_light(&scene, &surface, 0u, random_words(i, 11u), &sample);
                 directions[i] = pack(lit ? sample.direction : (float3)(0.0f));
                 pdfs[i] = lit ? sample.pdf_w : 0.0f;
                 radiance[i] = pack(lit ? sample.radiance : (float3)(0.0f));
@@ -94,7 +94,7 @@ protected:
                 const Surface surface = surface_at(&scene, rays[i], hits[i]);
                 const uint light = light_of_hit(&scene, &surface);
                 if (is_black(emitted_radiance(&scene, &surface, light)) || light != 0u) return;
-                pdfs[i] = light_pdf_w(&scene, &surface, light, unpack(rays[i].origin));
+                pdfs[i] = light_pdf_w(&scene, &surface, light, rays[i]);
             })");
         const auto pdfs = allocate<float>(count);
         kernel(count, scene.surfaces(), count, device_rays, hits, pdfs);
@@ -410,9 +410,9 @@ TEST_F(Lights, AreChosenByPowerAboveAFloor)
             uint i = get_global_id(0);
             if (i >= count) return;
             const SurfaceView scene = SURFACE_VIEW;
-            float rest = random4(i, 12u).x;
-            chosen[i] = choose_light(&scene, &rest);
-            probabilities[i] = lights[chosen[i]].probability;
+            const LightChoice choice = choose_light_by_power(&scene, random_words(i, 12u).x);
+            chosen[i] = choice.light;
+            probabilities[i] = choice.probability;
         })");
     const auto chosen = allocate<uint>(samples);
     const auto probabilities = allocate<float>(samples);

@@ -16,6 +16,7 @@ constexpr uint samples = 400'000;
 const std::vector<ReconstructionFilter> filters = {
     {FilterKind::box, 0.5f, 0.5f, 0.0f, 0.0f},      {FilterKind::tent, 1.0f, 0.5f, 0.0f, 0.0f},
     {FilterKind::gaussian, 2.0f, 0.5f, 0.0f, 0.0f}, {FilterKind::mitchell, 2.0f, 0.5f, 1.0f / 3.0f, 1.0f / 3.0f},
+    {FilterKind::lanczos, 3.0f, 0.5f, 0.0f, 0.0f},
     {FilterKind::gaussian, 1.3f, 0.4f, 0.0f, 0.0f}, // not a whole number of pixels
 };
 

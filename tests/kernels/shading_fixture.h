@@ -48,7 +48,7 @@ protected:
     // near total reflection, as far as Doubt lets it go, there is another factor of 5.
     static constexpr double direction_error = 3e-5;
 
-    ShadingStage() : plain_(ShadingScene(GetParam().options).scene), scene_(device_, plain_.scene)
+    ShadingStage() : plain_(ShadingScene(GetParam().options).scene), scene_(device_, plain_.scene, false, LightSelection::power)
     {
         use_sampler(options_, SamplerKind::independent);
     }

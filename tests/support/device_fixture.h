@@ -11,11 +11,12 @@
 namespace sundog
 {
 
-// Independent random numbers for the kernels of tests: random4(i, salt) in [0, 1)^4.
+// Independent random numbers for the kernels of tests: random_words(i, salt), and as random4(i, salt) in [0, 1)^4.
 inline const std::string random_source = R"(
 #include "math/hash.h"
 #include "math/philox.h"
-inline float4 random4(uint i, uint salt) { return unit_float4(philox4x32((uint4)(i, salt, 0u, 0u), (uint2)(0x9d2c5680u, 0xefc60000u))); }
+inline uint4 random_words(uint i, uint salt) { return philox4x32((uint4)(i, salt, 0u, 0u), (uint2)(0x9d2c5680u, 0xefc60000u)); }
+inline float4 random4(uint i, uint salt) { return unit_float4(random_words(i, salt)); }
 )";
 
 class DeviceFixture : public testing::Test

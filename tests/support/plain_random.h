@@ -27,7 +27,7 @@ inline std::array<uint, 4> plain_philox(std::array<uint, 4> counter, std::array<
 using Pair = std::array<double, 2>;
 
 struct LightNumbers {
-    double choice;
+    double choice; // of all 32 bits
     Pair position; // on an area light, or the direction to a constant environment
 };
 
@@ -59,13 +59,13 @@ public:
 
     EmissionNumbers emission() const
     {
-        const auto u = block(0, 0), v = block(0, 1);
-        return {{u[2], {u[0], u[1]}}, {v[0], v[1]}};
+        const auto v = block(0, 1);
+        return {direct_light(0), {v[0], v[1]}};
     }
     LightNumbers direct_light(uint vertex) const
     {
         const auto u = block(vertex, 0);
-        return {u[2], {u[0], u[1]}};
+        return {words(vertex, 0)[2] / 4294967296.0, {u[0], u[1]}};
     }
     LensNumbers lens(uint vertex) const
     {
@@ -87,13 +87,17 @@ private:
 
     static std::uint64_t iteration(SamplerKey key) { return (std::uint64_t(key.iteration_high) << 32) + key.iteration_low; }
 
+    std::array<uint, 4> words(uint vertex, uint number) const
+    {
+        return plain_philox({static_cast<uint>(index_), static_cast<uint>(index_ >> 32), sequence_, (stream_ << 28) + 3 * vertex + number}, key_);
+    }
+
     // The upper 24 bits of each word, as a fraction.
     std::array<double, 4> block(uint vertex, uint number) const
     {
-        const auto words = plain_philox(
-            {static_cast<uint>(index_), static_cast<uint>(index_ >> 32), sequence_, (stream_ << 28) + 3 * vertex + number}, key_);
+        const auto drawn = words(vertex, number);
         std::array<double, 4> fractions{};
-        for (std::size_t i = 0; i < 4; ++i) fractions[i] = (words[i] >> 8) / 16777216.0;
+        for (std::size_t i = 0; i < 4; ++i) fractions[i] = (drawn[i] >> 8) / 16777216.0;
         return fractions;
     }
 

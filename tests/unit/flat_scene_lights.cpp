@@ -139,7 +139,8 @@ TEST(PixelFilterTable, IsNormalised)
                                                        {FilterKind::tent, 1.0f, 0.5f, 0.0f, 0.0f},
                                                        {FilterKind::gaussian, 2.0f, 0.5f, 0.0f, 0.0f},
                                                        {FilterKind::mitchell, 2.0f, 0.5f, 1.0f / 3.0f, 1.0f / 3.0f},
-                                                       {FilterKind::mitchell, 2.0f, 0.5f, 0.0f, 0.5f}};
+                                                       {FilterKind::mitchell, 2.0f, 0.5f, 0.0f, 0.5f},
+                                                       {FilterKind::lanczos, 3.0f, 0.5f, 0.0f, 0.0f}};
     for (const ReconstructionFilter& filter : filters) {
         SCOPED_TRACE(static_cast<int>(filter.kind));
         const PixelFilter table = make_pixel_filter(filter);
@@ -172,6 +173,11 @@ TEST(PixelFilterTable, HasTheFiltersShape)
     EXPECT_NEAR(mitchell.density[FILTER_BINS / 2], 8.0 / 9.0 - 2.0 / 3.0 / 256.0 + 7.0 / 24.0 / 4096.0, 2e-4);
     EXPECT_NEAR(0.5 * (mitchell.density[FILTER_BINS / 4] + mitchell.density[FILTER_BINS / 4 - 1]), 1.0 / 18.0, 2e-3);
     EXPECT_LT(mitchell.density[FILTER_BINS / 8], 0.0f);
+
+    // Zero at whole numbers, negative between 1 and 2: sinc(1.5) sinc(0.5) = -4 / (3 pi^2) of the height.
+    const PixelFilter lanczos = make_pixel_filter({FilterKind::lanczos, 3.0f, 0.5f, 0.0f, 0.0f});
+    EXPECT_NEAR(0.5 * (lanczos.density[FILTER_BINS / 4] + lanczos.density[FILTER_BINS / 4 - 1]) / lanczos.density[FILTER_BINS / 2], -4.0 / (3.0 * pi * pi),
+                2e-3);
 
     const PixelFilter gaussian = make_pixel_filter({FilterKind::gaussian, 2.0f, 0.5f, 0.0f, 0.0f});
     const double edge = std::exp(-8.0); // lowered to reach 0 at the radius

@@ -120,6 +120,9 @@ TEST(ImportSensor, Filters)
     EXPECT_FLOAT_EQ(mitchell.c, 0.4f);
     EXPECT_FLOAT_EQ(mitchell.radius, 2.0f);
     EXPECT_FLOAT_EQ(filter("<rfilter type=\"catmullrom\"/>").c, 0.5f);
+    EXPECT_EQ(filter("<rfilter type=\"lanczos\"/>").kind, FilterKind::lanczos);
+    EXPECT_FLOAT_EQ(filter("<rfilter type=\"lanczos\"/>").radius, 3.0f);
+    EXPECT_FLOAT_EQ(filter("<rfilter type=\"lanczos\"><integer name=\"lobes\" value=\"4\"/></rfilter>").radius, 4.0f);
 }
 
 TEST(ImportSensor, OrthographicFilmsAreSizedByTheScale)
