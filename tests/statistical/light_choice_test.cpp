@@ -237,8 +237,8 @@ TEST(LightChoice, MethodsAgreeOnTexturedLamps)
     const Scene scene = textured_spot_and_panel_box();
     expect_agreement({{"path by tree", &scene, request("path", 48, {{"light_choice", "tree"}})},
                       {"path", &scene, request("path", 48)},
-                      {"ptracer", &scene, request("ptracer", 16)},
-                      {"pppm", &scene, request("pppm", 12)}},
+                      {"ptracer", &scene, request("ptracer", 24)},
+                      {"pppm", &scene, request("pppm", 18)}},
                      0.01);
 }
 
