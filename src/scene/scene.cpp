@@ -96,9 +96,9 @@ Bounds Scene::bounds() const
 
 bool Scene::moves() const
 {
-    const auto [open, close] = sensor.shutter;
-    return (sensor.motion && sensor.motion->moves(open, close)) ||
-           std::any_of(instances.begin(), instances.end(), [&](const InstanceDescription& i) { return i.to_world.moves(open, close); });
+    const auto moves = [&](const AnimatedTransform& t) { return t.moves(sensor.shutter.open, sensor.shutter.close); };
+    return (sensor.motion && moves(*sensor.motion)) ||
+           std::any_of(instances.begin(), instances.end(), [&](const InstanceDescription& i) { return moves(i.to_world); });
 }
 
 } // namespace sundog
