@@ -19,4 +19,20 @@ static inline void add_compensated3(Vec3* sum, Vec3* error, float3 x)
     add_compensated(&sum->z, &error->z, x.z);
 }
 
+// The same for x^2, whose own rounding error would else hide a variance of less than 2^-24 x^2.
+static inline void add_square_compensated(float* sum, float* error, float x)
+{
+#pragma OPENCL FP_CONTRACT OFF
+    const float square = x * x;
+    add_compensated(sum, error, square);
+    *error += fma(x, x, -square);
+}
+
+static inline void add_squares_compensated3(Vec3* sum, Vec3* error, float3 x)
+{
+    add_square_compensated(&sum->x, &error->x, x.x);
+    add_square_compensated(&sum->y, &error->y, x.y);
+    add_square_compensated(&sum->z, &error->z, x.z);
+}
+
 #endif

@@ -14,6 +14,6 @@ __kernel void accumulate_film(__global const Vec3* restrict radiance, uint count
     }
     FilmPixel pixel = film[index];
     add_compensated3(&pixel.sum, &pixel.sum_error, sample);
-    add_compensated3(&pixel.squares, &pixel.squares_error, sample * sample);
+    add_squares_compensated3(&pixel.squares, &pixel.squares_error, sample);
     film[index] = pixel;
 }

@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/timer.h"
+#include "film/heat_map.h"
 #include "film/image_io.h"
 #include "import/mitsuba_xml.h"
 #include "methods/method.h"
@@ -41,6 +42,10 @@ struct RenderOptions {
     std::string checkpoint;
     std::optional<std::string> checkpoint_every;
     bool resume = false;
+    bool errors = false;
+    std::optional<std::string> target_error;
+    std::optional<std::string> error_confidence;
+    std::string error_image;
     std::string preview;
     bool quiet = false;
     bool verbose = false;
@@ -64,6 +69,8 @@ struct RenderPlan {
     std::optional<double> seconds;
     ProgressMode progress = ProgressMode::off;
     std::optional<CheckpointPlan> checkpoint;
+    std::optional<double> target_error;
+    std::filesystem::path error_image; // empty: none
     std::optional<PreviewAddress> preview;
 };
 
@@ -94,6 +101,26 @@ std::optional<CheckpointPlan> plan_checkpoint(const RenderOptions& options)
     return plan;
 }
 
+void plan_errors(const RenderOptions& options, RenderPlan& plan)
+{
+    if (options.target_error) {
+        plan.target_error = parse_finite("--target-error", *options.target_error);
+        if (*plan.target_error <= 0.0)
+            throw UsageError("--target-error must be more than 0, such as 0.05 for 5 percent, got \"" + *options.target_error + "\"");
+    }
+    if (!options.error_image.empty()) {
+        plan.error_image = options.error_image;
+        check_writable(plan.error_image);
+    }
+    if (options.errors || plan.target_error || !plan.error_image.empty()) plan.settings.errors = ErrorSettings{};
+    if (!options.error_confidence) return;
+    const double confidence = parse_finite("--error-confidence", *options.error_confidence);
+    if (confidence <= 0.0 || confidence >= 1.0)
+        throw UsageError("--error-confidence must lie between 0 and 1, such as 0.9, got \"" + *options.error_confidence + "\"");
+    if (!plan.settings.errors) throw UsageError("--error-confidence needs --errors, --error-image FILE or --target-error E");
+    plan.settings.errors->confidence = confidence;
+}
+
 RenderPlan make_plan(const RenderOptions& options)
 {
     RenderPlan plan;
@@ -111,6 +138,7 @@ RenderPlan make_plan(const RenderOptions& options)
     if (options.time) plan.seconds = parse_finite("--time", *options.time);
     if (plan.seconds && *plan.seconds <= 0.0) throw UsageError("--time must be more than 0 seconds");
     plan.checkpoint = plan_checkpoint(options);
+    plan_errors(options, plan);
     if (!options.preview.empty()) {
         const auto [host, port] = parse_address("--preview", options.preview);
         plan.preview = PreviewAddress{host, port};
@@ -170,31 +198,68 @@ private:
     Timer since_last_;
 };
 
-// Iterates until the goal or Ctrl-C. Returns false when interrupted.
-bool iterate(RenderSession& session, const RenderPlan& plan, std::optional<LivePreview>& preview)
+// Asks now and then whether the error is small enough. Bounds of few iterations say little, and each question costs a
+// pass over the film: the first comes after 8 iterations, the others when there are a sixteenth more.
+class ErrorWatch {
+public:
+    explicit ErrorWatch(std::optional<double> target) : target_(target) {}
+    void update(const RenderSession& session, Progress& progress)
+    {
+        if (!target_ || session.iterations_done() < next_) return;
+        const double bound = session.relative_error().bound;
+        progress.set_error(session.iterations_done(), bound);
+        met_ = bound <= *target_;
+        next_ = session.iterations_done() + std::max<std::uint64_t>(1, session.iterations_done() / 16);
+    }
+    bool met() const { return met_; }
+
+private:
+    std::optional<double> target_;
+    std::uint64_t next_ = 8;
+    bool met_ = false;
+};
+
+ProgressGoal goal_of(const RenderSession& session, const RenderPlan& plan)
 {
-    ProgressGoal goal{plan.iterations, plan.seconds, session.iterations_done()};
-    if (!goal.iterations && !goal.seconds) goal.iterations = session.requested_iterations();
+    ProgressGoal goal{plan.iterations, plan.seconds, session.iterations_done(), std::nullopt};
+    // The error of photon maps falls as N^(-1/3), a square root of N^(-2/3) (docs/errors.md).
+    if (plan.target_error) goal.error = ErrorGoal{*plan.target_error, session.method().estimator_class == "unbiased" ? 1.0 / 2 : 1.0 / 3};
+    if (!goal.iterations && !goal.seconds && !goal.error) goal.iterations = session.requested_iterations();
+    return goal;
+}
+
+struct IterationsEnd {
+    bool finished; // rather than interrupted
+    bool error_met;
+};
+
+// Iterates until a goal or Ctrl-C.
+IterationsEnd iterate(RenderSession& session, const RenderPlan& plan, std::optional<LivePreview>& preview)
+{
+    const ProgressGoal goal = goal_of(session, plan);
     Progress progress(plan.progress, goal, std::cerr, terminal_columns());
     set_before_log_line([&progress] { progress.clear(); });
     defer_interrupts();
 
     const Timer timer;
     CheckpointSchedule checkpoints(plan.checkpoint);
+    ErrorWatch error(plan.target_error);
+    error.update(session, progress); // of a checkpoint
     progress.update(session.iterations_done(), 0.0);
     const auto finished = [&] {
-        return (goal.iterations && session.iterations_done() >= *goal.iterations) || (goal.seconds && timer.seconds() >= *goal.seconds);
+        return error.met() || (goal.iterations && session.iterations_done() >= *goal.iterations) || (goal.seconds && timer.seconds() >= *goal.seconds);
     };
     // At least one, so that there is an image.
     while (session.iterations_done() == 0 || (!finished() && !interrupt_requested())) {
         session.iterate();
+        error.update(session, progress);
         progress.update(session.iterations_done(), timer.seconds());
         checkpoints.update(session);
         if (preview) preview->update(session);
     }
     progress.finish(session.iterations_done(), timer.seconds());
     set_before_log_line({});
-    return finished();
+    return {finished(), error.met()};
 }
 
 // Saves all that can be saved, then reports the first failure: hours of rendering must not be lost to one full disk.
@@ -210,6 +275,7 @@ void save_all(const RenderSession& session, const Image& image, const RenderPlan
         }
     };
     for (const auto& output : plan.outputs) attempt([&] { write_image(output, image, plan.exposure_stops); });
+    if (!plan.error_image.empty()) attempt([&] { write_image(plan.error_image, heat_map(image)); });
     if (plan.checkpoint) attempt([&] { session.save_checkpoint(plan.checkpoint->file); });
     if (failure) throw *failure;
 }
@@ -229,6 +295,16 @@ void log_statistics(const RenderStatistics& statistics)
                           static_cast<double>(statistics.peak_device_bytes) * 1e-6));
 }
 
+void log_error_bound(const RenderStatistics& statistics, const RenderPlan& plan, const std::optional<ErrorTarget>& target)
+{
+    if (!statistics.error) return;
+    log_info(fmt::format("relative error at most {:.3g} with {:g}% confidence, about {:.3g} expected (noise {:.3g}, bias {:.3g})", statistics.error->bound,
+                         100.0 * statistics.error_confidence, statistics.error->expected(), statistics.error->noise, statistics.error->bias));
+    if (!plan.error_image.empty()) log_info(fmt::format("{}: {}", plan.error_image.string(), heat_map_legend()));
+    if (target && !target->met && !interrupt_requested())
+        log_warning(fmt::format("stopped before --target-error {:g} was reached; give it more iterations (-n) or time (-t)", target->error));
+}
+
 ExitStatus render(const RenderOptions& options)
 {
     const Timer wall;
@@ -243,17 +319,20 @@ ExitStatus render(const RenderOptions& options)
     if (plan.checkpoint) resume(session, *plan.checkpoint, plan.iterations);
     std::optional<LivePreview> preview;
     if (plan.preview) preview.emplace(*plan.preview, plan.outputs.front().filename().string());
-    const bool finished = iterate(session, plan, preview);
+    const IterationsEnd end = iterate(session, plan, preview);
 
     const Image image = session.image();
     save_all(session, image, plan);
     if (preview) preview->finish(image);
     const RenderStatistics statistics = session.statistics();
     log_statistics(statistics);
-    if (!options.stats.empty()) write_file_atomically(options.stats, statistics_json(statistics, wall.seconds()).dump(2) + "\n");
-    log_info(fmt::format("{}wrote {} ({}, {} iterations, {:.1f} s)", finished ? "" : "interrupted; ", joined(plan.outputs), statistics.method, statistics.iterations,
+    std::optional<ErrorTarget> target;
+    if (plan.target_error) target = ErrorTarget{*plan.target_error, end.error_met || statistics.error->bound <= *plan.target_error};
+    log_error_bound(statistics, plan, target);
+    if (!options.stats.empty()) write_file_atomically(options.stats, statistics_json(statistics, wall.seconds(), target).dump(2) + "\n");
+    log_info(fmt::format("{}wrote {} ({}, {} iterations, {:.1f} s)", end.finished ? "" : "interrupted; ", joined(plan.outputs), statistics.method, statistics.iterations,
                          wall.seconds()));
-    return finished ? ExitStatus::done : ExitStatus::interrupted;
+    return end.finished ? ExitStatus::done : ExitStatus::interrupted;
 }
 
 } // namespace
@@ -283,6 +362,12 @@ void add_render_command(CLI::App& app, ExitStatus& status)
     command->add_option("--checkpoint-every", options->checkpoint_every, fmt::format("Seconds between checkpoints, default {:g}", default_checkpoint_seconds))
         ->type_name("SECONDS");
     command->add_flag("--resume", options->resume, "Go on from the checkpoint, or start afresh when there is none yet");
+    command->add_flag("--errors", options->errors, "Estimate the error of every pixel: adds error.* and bias.* to EXR, and error to --stats");
+    command->add_option("--target-error", options->target_error,
+                        "Stop when the relative error, rms over the image, is at most E (0.05: 5 percent) at --error-confidence; with -n or -t, whichever comes first")
+        ->type_name("E");
+    command->add_option("--error-confidence", options->error_confidence, "Probability with which a pixel's error is within its bound, default 0.9")->type_name("P");
+    command->add_option("--error-image", options->error_image, "Write a heat map of every pixel's relative error bound")->type_name("FILE");
     command->add_option("--preview", options->preview, "Show the image in a tev viewer while it renders; tev's own port is 14158")->type_name("HOST:PORT");
     command->add_flag("-q,--quiet", options->quiet, "Print warnings and errors only");
     command->add_flag("-v,--verbose", options->verbose, "Print what happens, and the time of each stage");

@@ -19,9 +19,19 @@ nlohmann::ordered_json parameter_json(const MethodInfo* method, const std::strin
     return value.is_discarded() ? nlohmann::ordered_json(text) : value;
 }
 
+nlohmann::ordered_json error_json(const RelativeError& error, double confidence, const std::optional<ErrorTarget>& target)
+{
+    nlohmann::ordered_json json{{"confidence", confidence}, {"bound", error.bound}, {"expected", error.expected()}, {"bias", error.bias}, {"noise", error.noise}};
+    if (target) {
+        json["target"] = target->error;
+        json["target_met"] = target->met;
+    }
+    return json;
+}
+
 } // namespace
 
-nlohmann::ordered_json statistics_json(const RenderStatistics& statistics, double wall_seconds)
+nlohmann::ordered_json statistics_json(const RenderStatistics& statistics, double wall_seconds, const std::optional<ErrorTarget>& target)
 {
     nlohmann::ordered_json json;
     json["version"] = SUNDOG_VERSION;
@@ -42,6 +52,7 @@ nlohmann::ordered_json statistics_json(const RenderStatistics& statistics, doubl
     json["wall_seconds"] = wall_seconds;
     json["kernel_build_seconds"] = statistics.kernel_build_seconds;
     json["peak_device_bytes"] = statistics.peak_device_bytes;
+    if (statistics.error) json["error"] = error_json(*statistics.error, statistics.error_confidence, target);
     json["invalid_samples"] = statistics.invalid_samples;
     return json;
 }

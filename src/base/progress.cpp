@@ -68,6 +68,11 @@ Progress::State Progress::evaluate(std::uint64_t iterations, double seconds) con
         if (state.rate) consider(done / total, (total - done) / *state.rate);
         else state.fraction = std::clamp(std::max(state.fraction, done / total), 0.0, 1.0);
     }
+    if (goal_.error && error_.iterations > 0 && std::isfinite(error_.value)) {
+        const double needed = static_cast<double>(error_.iterations) * std::pow(error_.value / goal_.error->target, 1.0 / goal_.error->rate);
+        const double done = static_cast<double>(iterations);
+        if (state.rate) consider(done / needed, (needed - done) / *state.rate);
+    }
     return state;
 }
 
@@ -88,6 +93,7 @@ std::string Progress::counts(const State& state) const
     if (state.rate) text += ", " + rate_text(*state.rate);
     text += ", " + format_duration(state.seconds);
     if (state.seconds_left) text += ", " + format_duration(*state.seconds_left) + " left";
+    if (goal_.error && error_.iterations > 0) text += fmt::format(", error {:.3g} of {:.3g}", error_.value, goal_.error->target);
     return text;
 }
 
@@ -120,6 +126,10 @@ void Progress::print(const State& state)
         line["seconds"] = state.seconds;
         line["seconds_left"] = optional_number(state.seconds_left);
         line["iterations_per_second"] = optional_number(state.rate);
+        if (goal_.error) {
+            line["error"] = error_.iterations > 0 ? nlohmann::json(error_.value) : nlohmann::json(nullptr);
+            line["target_error"] = goal_.error->target;
+        }
         out_ << line.dump() << '\n' << std::flush;
     }
 }
@@ -128,6 +138,8 @@ void Progress::update(std::uint64_t iterations, double seconds)
 {
     if (due(seconds)) print(evaluate(iterations, seconds));
 }
+
+void Progress::set_error(std::uint64_t iterations, double error) { error_ = {iterations, error}; }
 
 void Progress::finish(std::uint64_t iterations, double seconds)
 {

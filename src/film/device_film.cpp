@@ -1,6 +1,7 @@
 #include "film/device_film.h"
 
 #include "device/buffer_state.h"
+#include "film/moments.h"
 
 #include <algorithm>
 
@@ -13,19 +14,6 @@ constexpr std::size_t tile_size = 8;
 
 const std::vector<std::string> channel_names = {"R",        "G",        "B",   "variance.R", "variance.G", "variance.B", "albedo.R",
                                                 "albedo.G", "albedo.B", "N.X", "N.Y",        "N.Z",        "depth.Z"};
-
-// Mean and unbiased variance of n values from their compensated sum and sum of squares.
-struct Moments {
-    double mean, variance;
-};
-
-Moments moments(float sum, float sum_error, float squares, float squares_error, double n)
-{
-    const double total = static_cast<double>(sum) + sum_error;
-    const double total_squares = static_cast<double>(squares) + squares_error;
-    const double mean = total / n;
-    return {mean, n > 1 ? std::max(0.0, (total_squares - total * mean) / (n - 1)) : 0.0};
-}
 
 } // namespace
 
@@ -40,6 +28,7 @@ DeviceFilm::DeviceFilm(Device& device, int width, int height)
 void DeviceFilm::accumulate(const Buffer<Vec3>& radiance)
 {
     accumulate_film_(pixel_count(), radiance, static_cast<uint>(pixel_count()), pixels_, invalid_samples_);
+    if (errors) errors->accumulate(radiance);
     iterations_++;
 }
 
@@ -54,6 +43,7 @@ void DeviceFilm::serialize(StateArchive& archive)
     sundog::serialize(archive, "film", pixels_);
     sundog::serialize(archive, "first hit channels", first_hits);
     sundog::serialize(archive, "invalid samples", invalid_samples_);
+    if (errors) errors->serialize(archive);
 }
 
 std::size_t DeviceFilm::pixel_of_path(std::size_t path) const
@@ -70,14 +60,22 @@ std::size_t DeviceFilm::pixel_of_path(std::size_t path) const
 
 Image DeviceFilm::resolve() const
 {
-    Image image(width_, height_, channel_names);
     const std::vector<FilmPixel> pixels = pixels_.download();
+    std::vector<std::string> names = channel_names;
+    std::vector<float> error_channels;
+    if (errors) {
+        const std::vector<std::string> more = errors->channel_names();
+        names.insert(names.end(), more.begin(), more.end());
+        error_channels = errors->channels(pixels, iterations_);
+    }
+    const std::size_t more = names.size() - channel_names.size();
+    Image image(width_, height_, names);
     const std::vector<FirstHitPixel> hits = first_hits.download();
     const double n = static_cast<double>(std::max<std::uint64_t>(iterations_, 1));
     for (std::size_t path = 0; path < pixels.size(); path++) {
         const FilmPixel& p = pixels[path];
         const FirstHitPixel& hit = hits[path];
-        float* out = &image.pixels[pixel_of_path(path) * channel_names.size()];
+        float* out = &image.pixels[pixel_of_path(path) * names.size()];
         const Moments channel[3] = {moments(p.sum.x, p.sum_error.x, p.squares.x, p.squares_error.x, n),
                                     moments(p.sum.y, p.sum_error.y, p.squares.y, p.squares_error.y, n),
                                     moments(p.sum.z, p.sum_error.z, p.squares.z, p.squares_error.z, n)};
@@ -87,6 +85,7 @@ Image DeviceFilm::resolve() const
         }
         const float rest[7] = {hit.albedo.x, hit.albedo.y, hit.albedo.z, hit.normal.x, hit.normal.y, hit.normal.z, hit.depth};
         std::copy(std::begin(rest), std::end(rest), out + 6);
+        std::copy_n(error_channels.data() + path * more, more, out + channel_names.size());
     }
     return image;
 }

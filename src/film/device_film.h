@@ -3,10 +3,12 @@
 
 #include "base/state_archive.h"
 #include "device/kernel.h"
+#include "film/error_estimate.h"
 #include "film/image.h"
 #include "shared/film.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace sundog {
 
@@ -19,6 +21,9 @@ public:
     void accumulate(const Buffer<Vec3>& radiance);
 
     Buffer<FirstHitPixel> first_hits; // means, updated by camera paths
+    std::optional<ErrorEstimate> errors; // where they were asked for, before the first iteration
+
+    RelativeError relative_error() const { return errors->relative_error(pixels_, iterations_); } // waits
 
     std::uint64_t iterations() const { return iterations_; }
     std::uint64_t invalid_samples() const; // waits
@@ -26,7 +31,7 @@ public:
     int height() const { return height_; }
     std::size_t pixel_count() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
 
-    // Means of radiance, variance.{R,G,B} (of one iteration's radiance, unbiased), albedo, N and depth.
+    // Means of radiance, variance.{R,G,B} (of one iteration's radiance, unbiased), albedo, N and depth, and the error estimate's channels.
     Image resolve() const;
 
     // All that iterations have added up.

@@ -1,6 +1,7 @@
 #include "film/merge_images.h"
 
 #include "base/errors.h"
+#include "film/error_estimate.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -37,6 +38,15 @@ template <class Number> Number number(const Image& image, const std::string& nam
     if (error != std::errc{} || end != text.data() + text.size())
         throw FileError(fmt::format("{}: cannot be merged, its metadata sundog:{} is no number: \"{}\"", file.string(), name, text));
     return value;
+}
+
+// In place of the index of a bias channel.
+constexpr int no_error = -2, no_bias = -1;
+
+std::string optional_metadata(const Image& image, const std::string& name)
+{
+    const std::string* value = find_metadata(image, name);
+    return value ? *value : "none";
 }
 
 std::vector<std::string> words(const std::string& text)
@@ -77,7 +87,12 @@ void ImageMerger::start(const Image& part, const std::filesystem::path& file)
     means_.assign(part.pixels.size(), 0.0);
     squares_.assign(part.pixels.size(), 0.0);
     is_variance_.assign(part.channels.size(), false);
+    half_widths_.assign(part.pixels.size(), 0.0);
     for (const std::string& channel : part.channels) {
+        const auto bias = channel.starts_with("error.") ? std::find(part.channels.begin(), part.channels.end(), "bias." + channel.substr(6)) : part.channels.end();
+        bias_of_error_.push_back(!channel.starts_with("error.")  ? no_error
+                                 : bias == part.channels.end() ? no_bias
+                                                               : static_cast<int>(bias - part.channels.begin()));
         const auto found = std::find(part.channels.begin(), part.channels.end(), "variance." + channel);
         const auto index = found - part.channels.begin();
         variance_of_.push_back(found == part.channels.end() ? -1 : static_cast<int>(index));
@@ -95,6 +110,7 @@ void ImageMerger::check_like_first(const Image& part, const std::filesystem::pat
     same("list of channels", fmt::format("{}", fmt::join(part.channels, " ")), fmt::format("{}", fmt::join(first_.channels, " ")));
     same("method", metadata(part, "method", file), metadata(first_, "method", first_file_));
     same("list of parameters", parameters_of(part, file), parameters_of(first_, first_file_));
+    same("error confidence", optional_metadata(part, "error_confidence"), optional_metadata(first_, "error_confidence"));
     if (metadata(part, "scene", file) != metadata(first_, "scene", first_file_))
         throw FileError(fmt::format("{}: cannot be merged, it shows another scene, or another camera or filter, than {}", file.string(), first_file_.string()));
 }
@@ -120,6 +136,13 @@ void ImageMerger::add_totals(const Image& part, const std::filesystem::path& fil
     if (std::find(devices_.begin(), devices_.end(), device) == devices_.end()) devices_.push_back(device);
 }
 
+// Of the interval that a bound was made from: bound - |bias|.
+double ImageMerger::half_width(const Image& part, std::size_t error, std::size_t channel) const
+{
+    const int bias = bias_of_error_[channel];
+    return part.pixels[error] - (bias == no_bias ? 0.0 : std::abs(static_cast<double>(part.pixels[error - channel + static_cast<std::size_t>(bias)])));
+}
+
 // Means and sums of squares of two sets of samples make those of their union [Chan, Golub and LeVeque 1979,
 // "Updating formulae and a pairwise algorithm for computing sample variances"].
 void ImageMerger::add_pixels(const Image& part, double iterations, const std::filesystem::path& file)
@@ -134,6 +157,10 @@ void ImageMerger::add_pixels(const Image& part, double iterations, const std::fi
                                         pixel / width, part.pixels[i]));
         }
         if (is_variance_[channel]) continue;
+        if (bias_of_error_[channel] != no_error) {
+            half_widths_[i] += std::pow(iterations * half_width(part, i, channel), 2);
+            continue;
+        }
         const double difference = part.pixels[i] - means_[i];
         means_[i] += difference * (iterations / total);
         if (variance_of_[channel] < 0) continue;
@@ -150,17 +177,23 @@ Image ImageMerger::result() const
     for (std::size_t i = 0; i < means_.size(); i++) {
         const std::size_t channel = i % channels;
         if (is_variance_[channel]) continue;
+        if (const int bias = bias_of_error_[channel]; bias != no_error) {
+            const double mean_bias = bias == no_bias ? 0.0 : std::abs(means_[i - channel + static_cast<std::size_t>(bias)]);
+            image.pixels[i] = static_cast<float>(mean_bias + std::sqrt(half_widths_[i]) / static_cast<double>(iterations_));
+            continue;
+        }
         image.pixels[i] = static_cast<float>(means_[i]);
         if (variance_of_[channel] >= 0)
             image.pixels[i - channel + static_cast<std::size_t>(variance_of_[channel])] = static_cast<float>(degrees > 0.0 ? squares_[i] / degrees : 0.0);
     }
-    const std::map<std::string, std::string> merged{{"sundog:version", SUNDOG_VERSION},
+    std::map<std::string, std::string> merged{{"sundog:version", SUNDOG_VERSION},
                                                     {"sundog:seed", seeds_},
                                                     {"sundog:iterations", std::to_string(iterations_)},
                                                     {"sundog:light_subpaths", std::to_string(light_subpaths_)},
                                                     {"sundog:camera_subpaths", std::to_string(camera_subpaths_)},
                                                     {"sundog:device", fmt::format("{}", fmt::join(devices_, ", "))},
                                                     {"sundog:seconds", fmt::format("{:.3f}", seconds_)}};
+    if (find_metadata(first_, "error_bound")) merged["sundog:error_bound"] = fmt::format("{:.6g}", relative_bound(image));
     for (const auto& [name, value] : first_.metadata) image.metadata.emplace_back(name, merged.contains(name) ? merged.at(name) : value);
     return image;
 }

@@ -24,7 +24,7 @@ class AdaptiveProgressivePhotonMapping final : public Method
 {
 public:
     AdaptiveProgressivePhotonMapping(RenderContext& context, const Parameters& parameters)
-        : context_(context), kernel_(density_kernel(parameters)), pass_(context, parameters),
+        : context_(context), kernel_(density_kernel(parameters)), pass_(context, parameters, true),
           gather_(make_gather(context, "estimators/radiance_estimate.h", kernel_)),
           gather_errors_(make_gather<ErrorSum>(context, "estimators/error_estimate.h")),
           set_query_radii_(context.device, "set_query_radii", "Set query radii", BuildOptions{{{"PIXEL_STATISTICS", "AdaptivePixel"}}, {}}),
@@ -32,6 +32,7 @@ public:
           pixels_(context.device, std::vector<AdaptivePixel>(pass_.pixels(), {pass_.first_radius() * pass_.first_radius(), 0, 0, 0, 0}),
                   "adaptive pixels")
     {
+        if (context.film.errors) bias_.emplace(context);
     }
 
     void render_pass(std::uint64_t iteration) override
@@ -42,9 +43,10 @@ public:
         pass_.gather_photons(gather_errors_);
 
         set_query_radii_(count, pixels_, count, pass_.queries.queries);
+        const float inverse_paths = 1.0f / static_cast<float>(pass_.light_paths());
+        if (bias_) bias_->add(pass_.queries.queries, gather_errors_.sums, {kernel_, inverse_paths});
         pass_.gather_photons(gather_);
-        add_gathered_(count, pass_.queries.queries, gather_.sums, count, 1.0f / static_cast<float>(pass_.light_paths()),
-                      pass_.camera.radiance);
+        add_gathered_(count, pass_.queries.queries, gather_.sums, count, inverse_paths, pass_.camera.radiance);
         context_.film.accumulate(pass_.camera.radiance);
 
         learn_radii_(count, pass_.queries.queries, gather_errors_.sums, schedule(done), count, pixels_);
@@ -77,6 +79,7 @@ private:
     Kernel add_gathered_;
     Kernel learn_radii_;
     Buffer<AdaptivePixel> pixels_;
+    std::optional<BiasTerm<ErrorSum>> bias_; // where errors are asked for
 };
 
 const MethodRegistration registration({
@@ -84,6 +87,7 @@ const MethodRegistration registration({
     .title = "Adaptive progressive photon mapping",
     .paper = "Kaplanyan and Dachsbacher 2013, ACM Transactions on Graphics 32(2)",
     .estimator_class = "consistent",
+    .error_model = ErrorModel::bias_and_variance,
     .description = "Every pixel learns bias and variance of its estimates and chooses the radius that balances them, at most that of the "
                    "global schedule. "
                    "`radius` is the largest: choose it wide.",

@@ -42,6 +42,7 @@ public:
         const uint count = static_cast<uint>(pass_.pixels());
         pass_.trace(iteration, pass_.first_radius());
         set_query_radii_(count, pixels_, count, pass_.queries.queries);
+        pass_.estimate_bias(0); // the uniform kernel
         pass_.gather_photons(gather_);
         const float inverse_paths = 1.0f / static_cast<float>(pass_.light_paths());
         test_photon_bins_(count, pass_.queries.queries, gather_.sums, thresholds_, count, shrink_, inverse_paths, pixels_,
@@ -112,6 +113,7 @@ const MethodRegistration registration({
     .title = "Chi-squared progressive photon mapping",
     .paper = "Lin, Li, Zeng, Zhang, Jia, Wang, Ramamoorthi and Yan 2020, ACM Transactions on Graphics 39(5)",
     .estimator_class = "consistent",
+    .error_model = ErrorModel::bias_and_variance,
     .description = "Every pixel tests whether the photons it finds lie evenly, and shrinks its radius only where they do not. Keeps wide "
                    "radii, and so little "
                    "noise, where light is even.",

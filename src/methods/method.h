@@ -42,12 +42,17 @@ public:
     virtual void serialize(StateArchive& archive) = 0;
 };
 
+// What a method tells of its error where that is asked for (film/error_estimate.h). The images of both others are means of
+// what they give the film in each iteration; bias_and_variance adds the bias of each to `film.errors->bias` before.
+enum class ErrorModel { none, variance, bias_and_variance };
+
 // What a user may know of a method before choosing it.
 struct MethodInfo {
     std::string name; // "sppm"
     std::string title; // "Stochastic progressive photon mapping"
     std::string paper; // "Hachisuka and Jensen 2009, ACM TOG 28(5)"
     std::string estimator_class; // "unbiased", "consistent" or "biased"
+    ErrorModel error_model = ErrorModel::none;
     std::string description; // a few sentences: idea, when to use it
     std::vector<ParameterSpec> parameters;
     bool follows_motion = true; // false: what the camera sees is found once, so nothing may move

@@ -53,6 +53,7 @@ const MethodRegistration registration({
     .title = "Path tracing",
     .paper = "Kajiya 1986, SIGGRAPH; Veach and Guibas 1995, SIGGRAPH",
     .estimator_class = "unbiased",
+    .error_model = ErrorModel::variance,
     .description = "Paths from the camera with next-event estimation and BSDF sampling under multiple importance sampling. Best for diffuse scenes with "
                    "large lights; cannot find small lights through glass.",
     .parameters = {max_depth_spec(), rr_depth_spec(5, "paths, by throughput"), sampler_spec(), light_choice_spec(), spectral_spec(), iterations_spec()},

@@ -5,7 +5,7 @@
 namespace sundog
 {
 
-PhotonPass::PhotonPass(RenderContext& context, const Parameters& parameters)
+PhotonPass::PhotonPass(RenderContext& context, const Parameters& parameters, bool finds_laplacians)
     : context_(context), first_radius_(sundog::first_radius(context, parameters)),
       light_(context, parameters, parameters.text("direct") == "nee"),
       pool_(context.device, context.scene, std::max(light_.light_paths(), context.film.pixel_count())),
@@ -13,6 +13,7 @@ PhotonPass::PhotonPass(RenderContext& context, const Parameters& parameters)
       queries(context.device, context.scene, camera.count(), query_rules(parameters), parameters.text("direct") == "nee",
               sampler_kind(parameters))
 {
+    if (context.film.errors && !finds_laplacians) bias_.emplace(context, first_radius_);
 }
 
 void PhotonPass::trace(std::uint64_t iteration, float radius)
@@ -21,8 +22,15 @@ void PhotonPass::trace(std::uint64_t iteration, float radius)
     camera.start(context_.scene, pool_, key);
     camera.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
     queries.trace(context_.scene, camera, pool_, key, radius);
-    light_.trace(pool_, key, radius);
+    light_.trace(pool_, key, bias_ ? bias_->map_radius(iteration, radius) : radius);
     iterations_++;
+}
+
+void PhotonPass::estimate_bias(int density_kernel)
+{
+    if (!bias_) return;
+    bias_->add(light_.map, queries, iterations_ - 1, {density_kernel, 1.0f / static_cast<float>(light_paths())});
+    context_.spectral.to_rgb(context_.film.errors->bias);
 }
 
 void PhotonPass::serialize(StateArchive& archive)

@@ -1,30 +1,29 @@
 // One iteration of photon mapping up to the photon map: what progressive methods have in common.
 #pragma once
 
+#include "methods/bias_estimate.h"
 #include "methods/light_pass.h"
 #include "methods/method.h"
-#include "stages/photon_gather.h"
 #include "stages/query_paths.h"
+
+#include <optional>
 
 namespace sundog
 {
-
-// What answers queries of a scene, with an estimator (kernels/estimators) and a kernel (1 - t^2)^density_kernel.
-template <class Result = GatherSum>
-PhotonGather<Result> make_gather(RenderContext& context, const std::string& estimator, int density_kernel = 0)
-{
-    return {context.device, context.film.pixel_count(), estimator, density_kernel,
-            context.scene.has_lobes_to_evaluate() ? std::optional(context.scene.surface_options()) : std::nullopt};
-}
 
 // camera paths -> queries; light paths -> photons -> map. Gathering, and what becomes of it, is the method's.
 class PhotonPass
 {
 public:
-    PhotonPass(RenderContext& context, const Parameters& parameters);
+    // finds_laplacians: the method estimates bias, where errors are asked for, by Laplacians that it needs anyway.
+    PhotonPass(RenderContext& context, const Parameters& parameters, bool finds_laplacians = false);
 
     // Traces both kinds of paths and builds the map for queries of at most `radius`.
     void trace(std::uint64_t iteration, float radius);
+
+    // To be called when the queries have the radii that they are answered with: adds the bias that their estimate by the
+    // kernel (1 - t^2)^density_kernel has to the film's error estimate, where there is one.
+    void estimate_bias(int density_kernel);
 
     // Sums by query, in `gather.sums`.
     template <class Result> void gather_photons(PhotonGather<Result>& gather) const
@@ -44,6 +43,7 @@ private:
     std::uint64_t iterations_ = 0;
     LightPass light_;
     PathPool pool_;
+    std::optional<BiasEstimate> bias_;
 
 public:
     CameraPaths camera;

@@ -30,6 +30,7 @@ public:
           gather_(make_gather(context, "estimators/flux_sum.h")), clear_radiance_(context.device, "clear_radiance", "Clear radiance"),
           radiance_(context.device, context.film.pixel_count(), "radiance")
     {
+        if (context.film.errors) bias_.emplace(context, first_radius_);
         const std::size_t pixels = context.film.pixel_count();
         const auto count = static_cast<std::uint64_t>(parameters.integer("hit_points"));
         for (std::uint64_t i = 0; i < count; i++) {
@@ -46,11 +47,12 @@ public:
 
     void render_pass(std::uint64_t iteration) override
     {
-        light_.trace(pool_, sampler_key(context_.seed, iteration), first_radius_);
+        light_.trace(pool_, sampler_key(context_.seed, iteration), bias_ ? bias_->map_radius(iteration, first_radius_) : first_radius_);
         const float inverse_paths = 1.0f / static_cast<float>(light_.light_paths() * hit_points_.size());
         clear_radiance_(radiance_.size(), static_cast<uint>(radiance_.size()), radiance_);
         for (HitPoints& points : hit_points_) {
             points.statistics.set_radii(points.queries.queries);
+            if (bias_) bias_->add(light_.map, points.queries, iteration, {0, inverse_paths}); // 0: the uniform kernel
             gather_.gather(light_.map, points.queries.queries, points.queries.lobes, radiance_.size());
             points.statistics.update(points.queries.queries, gather_.sums, points.camera.radiance, inverse_paths, radiance_);
         }
@@ -89,6 +91,7 @@ private:
     PhotonGather<> gather_;
     Kernel clear_radiance_;
     Buffer<Vec3> radiance_; // of this iteration
+    std::optional<BiasEstimate> bias_; // where errors are asked for
     std::deque<HitPoints> hit_points_;
 };
 
@@ -97,6 +100,7 @@ const MethodRegistration registration({
     .title = "Progressive photon mapping",
     .paper = "Hachisuka, Ogaki and Jensen 2008, ACM Transactions on Graphics 27(5)",
     .estimator_class = "consistent",
+    .error_model = ErrorModel::bias_and_variance,
     .description = "Finds the points that the camera sees once, and lets each shrink its own radius as photons arrive; all light comes by "
                    "photons. Consistent at "
                    "its hit points: for antialiasing and depth of field choose many, or sppm.",

@@ -14,8 +14,8 @@ class ProbabilisticProgressivePhotonMapping final : public Method
 {
 public:
     ProbabilisticProgressivePhotonMapping(RenderContext& context, const Parameters& parameters)
-        : context_(context), alpha_(parameters.real("alpha")), pass_(context, parameters),
-          gather_(make_gather(context, "estimators/radiance_estimate.h", density_kernel(parameters))),
+        : context_(context), alpha_(parameters.real("alpha")), kernel_(density_kernel(parameters)), pass_(context, parameters),
+          gather_(make_gather(context, "estimators/radiance_estimate.h", kernel_)),
           add_gathered_(context.device, "add_gathered", "Add gathered light")
     {
     }
@@ -24,6 +24,7 @@ public:
     {
         const float radius = static_cast<float>(scheduled_radius(pass_.first_radius(), alpha_, 2, iteration));
         pass_.trace(iteration, radius);
+        pass_.estimate_bias(kernel_);
         pass_.gather_photons(gather_);
         const float inverse_paths = 1.0f / static_cast<float>(pass_.light_paths());
         add_gathered_(pass_.pixels(), pass_.queries.queries, gather_.sums, static_cast<uint>(pass_.pixels()), inverse_paths,
@@ -39,6 +40,7 @@ public:
 private:
     RenderContext& context_;
     double alpha_;
+    int kernel_;
     PhotonPass pass_;
     PhotonGather<> gather_;
     Kernel add_gathered_;
@@ -49,6 +51,7 @@ const MethodRegistration registration({
     .title = "Progressive photon mapping, a probabilistic approach",
     .paper = "Knaus and Zwicker 2011, ACM Transactions on Graphics 30(3)",
     .estimator_class = "consistent",
+    .error_model = ErrorModel::bias_and_variance,
     .description = "Averages independent photon-mapping renders whose radius shrinks from one to the next. Renders caustics and light seen "
                    "through glass; "
                    "the reference among the progressive methods.",

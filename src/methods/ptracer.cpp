@@ -60,6 +60,7 @@ const MethodRegistration registration({
     .title = "Light tracing",
     .paper = "Dutre, Lafortune and Willems 1993, Compugraphics",
     .estimator_class = "unbiased",
+    .error_model = ErrorModel::variance,
     .description = "Paths from the lights, each vertex connected to the camera. Renders caustics on diffuse surfaces well; what is seen in mirrors or through "
                    "glass stays black.",
     .parameters = {photons_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), spectral_spec(), iterations_spec()},

@@ -22,6 +22,7 @@ public:
     {
         pass_.trace(iteration, pass_.first_radius());
         statistics_.set_radii(pass_.queries.queries);
+        pass_.estimate_bias(0); // the uniform kernel
         pass_.gather_photons(gather_);
         context_.spectral.to_rgb(pass_.camera.radiance);
         context_.spectral.to_rgb(pass_.queries.queries, gather_.sums);
@@ -56,6 +57,7 @@ const MethodRegistration registration({
     .title = "Stochastic progressive photon mapping",
     .paper = "Hachisuka and Jensen 2009, ACM Transactions on Graphics 28(5)",
     .estimator_class = "consistent",
+    .error_model = ErrorModel::bias_and_variance,
     .description =
         "Every pixel keeps its own radius, which shrinks with the photons it has found. Renders caustics and light seen through glass with "
         "depth of field and antialiasing; a good default.",

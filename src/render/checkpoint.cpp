@@ -20,6 +20,7 @@ nlohmann::ordered_json json_of(const RenderIdentity& identity)
     json["height"] = identity.height;
     json["scene_file"] = identity.scene_file;
     json["scene"] = identity.scene;
+    json["errors"] = identity.errors;
     return json;
 }
 
@@ -34,6 +35,7 @@ RenderIdentity identity_of(const nlohmann::ordered_json& json)
     json.at("height").get_to(identity.height);
     json.at("scene_file").get_to(identity.scene_file);
     json.at("scene").get_to(identity.scene);
+    identity.errors = json.value("errors", false); // which older checkpoints do not say
     return identity;
 }
 
@@ -60,6 +62,9 @@ void check_same(const RenderIdentity& stored, const RenderIdentity& wanted, cons
     if (stored.seed != wanted.seed) refuse(file, fmt::format("seed {}, not {}", stored.seed, wanted.seed), fmt::format("use -s {}, {}", stored.seed, other));
     if (stored.width != wanted.width || stored.height != wanted.height)
         refuse(file, fmt::format("{}x{} pixels, not {}x{}", stored.width, stored.height, wanted.width, wanted.height), "use that size, " + other);
+    if (stored.errors != wanted.errors)
+        refuse(file, fmt::format("a render that {}", stored.errors ? "estimates its error" : "does not estimate its error"),
+               (stored.errors ? "use --errors, " : "leave out --errors, --error-image and --target-error, ") + other);
     if (stored.scene != wanted.scene)
         refuse(file, fmt::format("another scene ({}, not {} as it is now)", stored.scene_file, wanted.scene_file), "render that scene, " + other);
 }

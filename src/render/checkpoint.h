@@ -19,6 +19,7 @@ struct RenderIdentity {
     int height = 0;
     std::string scene_file; // for messages only
     std::string scene; // fingerprint
+    bool errors = false; // whether they are estimated
 };
 
 struct RenderProgress {

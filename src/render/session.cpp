@@ -56,6 +56,28 @@ Parameters choose_parameters(const Scene& scene, const RenderSettings& settings,
     return Parameters(method.name, method.parameters, values);
 }
 
+// Throws UsageError unless errors are not asked for, or the method can estimate them.
+std::optional<ErrorEstimate> make_error_estimate(Device& device, const Film& film, const MethodInfo& method, const RenderSettings& settings)
+{
+    if (!settings.errors) return std::nullopt;
+    if (method.error_model == ErrorModel::none) {
+        std::vector<std::string> able;
+        for (const MethodInfo* info : all_methods())
+            if (info->error_model != ErrorModel::none) able.push_back(info->name);
+        throw UsageError(fmt::format("{} cannot estimate its error; choose one of {} (-m NAME), or leave out --errors, --error-image and --target-error",
+                                     method.name, fmt::join(able, ", ")));
+    }
+    const std::size_t pixels = static_cast<std::size_t>(film.crop_width) * static_cast<std::size_t>(film.crop_height);
+    return ErrorEstimate(device, pixels, method.error_model == ErrorModel::bias_and_variance, settings.errors->confidence);
+}
+
+DeviceFilm make_film(Device& device, const Film& description, const MethodInfo& method, const RenderSettings& settings)
+{
+    DeviceFilm film(device, description.crop_width, description.crop_height);
+    film.errors = make_error_estimate(device, description, method, settings);
+    return film;
+}
+
 // Throws SceneError when the film's accumulators alone cannot be allocated.
 void check_film(const Film& film, const DeviceInfo& device)
 {
@@ -96,7 +118,7 @@ struct RenderSession::State {
         : scene(sized_scene(std::move(scene_in), settings, device_in.info())), device(device_in), info(choose_method(scene, settings)),
           parameters(choose_parameters(scene, settings, info)), seed(settings.seed.value_or(scene.integrator.seed)),
           device_scene(device, scene, is_spectral(parameters), light_selection(parameters)), camera(make_camera(scene.sensor, scene.film)),
-          filter(make_pixel_filter(scene.film.filter)), film(device, scene.film.crop_width, scene.film.crop_height),
+          filter(make_pixel_filter(scene.film.filter)), film(make_film(device, scene.film, info, settings)),
           motion(device_scene, scene, camera, seed),
           spectral(device, device_scene, seed), context{device, device_scene, camera, filter, film, spectral, seed},
           method(info.create(context, parameters))
@@ -138,7 +160,7 @@ RenderIdentity RenderSession::State::identity()
     if (!scene_fingerprint) scene_fingerprint = fingerprint(flatten_scene(scene), make_camera(scene.sensor, scene.film), filter);
     auto values = parameters.all();
     std::erase_if(values, [](const auto& parameter) { return parameter.first == "iterations"; });
-    return {SUNDOG_VERSION, info.name, std::move(values), seed, scene.film.crop_width, scene.film.crop_height, scene.file, *scene_fingerprint};
+    return {SUNDOG_VERSION, info.name, std::move(values), seed, scene.film.crop_width, scene.film.crop_height, scene.file, *scene_fingerprint, film.errors.has_value()};
 }
 
 RenderProgress RenderSession::State::progress()
@@ -174,6 +196,16 @@ void RenderSession::iterate()
     state_->device.finish();
     state_->iterations++;
     state_->seconds += timer.seconds();
+}
+
+RelativeError RenderSession::relative_error() const
+{
+    return state_->film.relative_error();
+}
+
+const MethodInfo& RenderSession::method() const
+{
+    return state_->info;
 }
 
 std::uint64_t RenderSession::iterations_done() const
@@ -221,6 +253,10 @@ Image RenderSession::image() const
                       {"sundog:camera_subpaths", std::to_string(s.counters.camera_subpaths)},
                       {"sundog:device", s.device},
                       {"sundog:seconds", fmt::format("{:.3f}", s.render_seconds)}};
+    if (s.error) {
+        image.metadata.emplace_back("sundog:error_confidence", fmt::format("{:g}", s.error_confidence));
+        image.metadata.emplace_back("sundog:error_bound", fmt::format("{:.6g}", s.error->bound));
+    }
     return image;
 }
 
@@ -238,6 +274,10 @@ RenderStatistics RenderSession::statistics() const
     statistics.stage_seconds = state_->progress().stage_seconds;
     statistics.kernel_build_seconds = state_->device.profile().build_seconds();
     statistics.peak_device_bytes = state_->device.peak_bytes();
+    if (const auto& errors = state_->film.errors) {
+        statistics.error = relative_error();
+        statistics.error_confidence = errors->confidence();
+    }
     statistics.invalid_samples = state_->film.invalid_samples();
     return statistics;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device/device.h"
+#include "film/error_estimate.h"
 #include "film/image.h"
 #include "methods/method.h"
 #include "scene/scene.h"
@@ -15,12 +16,18 @@
 
 namespace sundog {
 
+// The error of the image is to be estimated.
+struct ErrorSettings {
+    double confidence = 0.9; // of bounds, in (0, 1)
+};
+
 // What the command line (or a library user) asks for beyond the scene file.
 struct RenderSettings {
     std::string method; // empty: the scene's <integrator>, else "sppm"
     std::map<std::string, std::string> parameters; // as with --param; they override the scene's
     std::optional<std::uint64_t> seed; // else the scene's
     std::optional<std::pair<int, int>> size; // film size in pixels, instead of the scene's
+    std::optional<ErrorSettings> errors;
 };
 
 struct RenderStatistics {
@@ -35,6 +42,8 @@ struct RenderStatistics {
     double kernel_build_seconds = 0.0;
     std::vector<std::pair<std::string, double>> stage_seconds; // label, device time
     std::uint64_t peak_device_bytes = 0;
+    std::optional<RelativeError> error; // where it is estimated
+    double error_confidence = 0.0; // of its bound
     std::uint64_t invalid_samples = 0; // NaN or infinite, kept out of the image
 };
 
@@ -47,6 +56,10 @@ public:
 
     // Iterations that the scene or the method's `iterations` parameter asks for (at least 1).
     std::uint64_t requested_iterations() const;
+
+    // How far the image is from the truth, as far as that is known; waits. Only where settings ask for errors.
+    RelativeError relative_error() const;
+    const MethodInfo& method() const;
 
     // Renders one iteration and waits for it.
     void iterate();

@@ -1,68 +1,26 @@
 // Convergence: how fast the error falls, on a scene whose answer is known in every pixel.
 //
-// A point light of intensity I at height h over a diffuse plane: irradiance I h / (h^2 + rho^2)^(3/2). Its
-// Laplacian does not vanish, so density estimation has bias as well as noise.
+// A point light over a diffuse plane: the Laplacian of its irradiance does not vanish, so density estimation has bias as
+// well as noise.
 
+#include "support/point_over_plane.h"
 #include "support/render_replicates.h"
 
 #include <gtest/gtest.h>
-
-#include <numbers>
 
 using namespace sundog;
 using namespace sundog::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr int size = 16; // pixels
-constexpr float half_patch = 0.5f; // the camera sees [-half_patch, half_patch]^2 of the plane
-constexpr float height = 1.0f;
-constexpr float reflectance = 0.5f;
-
-Scene point_over_plane()
-{
-    Scene scene;
-    scene.file = "point over plane";
-    scene.bsdfs.push_back({"", {}, DiffuseBsdf{{reflectance, reflectance, reflectance}}});
-    TriangleMesh plane;
-    plane.positions = {{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}};
-    plane.triangles = {{0, 1, 2}, {0, 2, 3}};
-    ShapeDescription shape;
-    shape.geometry = plane;
-    scene.shapes.push_back(shape);
-    scene.emitters.push_back({{}, PointEmitter{{0, 0, height}, {1, 1, 1}}});
-    scene.sensor.position = {0, 0, 5};
-    scene.sensor.axis_x = {-1, 0, 0};
-    scene.sensor.axis_y = {0, 1, 0};
-    scene.sensor.axis_z = {0, 0, -1};
-    scene.sensor.fov_x = 2.0f * std::atan(half_patch / 5.0f);
-    scene.film.width = scene.film.height = scene.film.crop_width = scene.film.crop_height = size;
-    scene.film.filter = {FilterKind::box, 0.5f, 0.5f, 0, 0};
-    return scene;
-}
-
-// Mean radiance over the pixel's square on the plane, by the midpoint rule.
-double answer(int px, int py)
-{
-    constexpr int steps = 8;
-    const double pixel = 2.0 * half_patch / size;
-    double sum = 0.0;
-    for (int i = 0; i < steps; i++)
-        for (int j = 0; j < steps; j++) {
-            const double x = -half_patch + (px + (i + 0.5) / steps) * pixel;
-            const double y = -half_patch + (py + (j + 0.5) / steps) * pixel;
-            sum += height / std::pow(height * height + x * x + y * y, 1.5);
-        }
-    return sum / (steps * steps) * reflectance / pi;
-}
+const PointOverPlane plane{16, 0.5};
 
 double squared_error(const Image& image)
 {
     double sum = 0.0;
-    for (int y = 0; y < size; y++)
-        for (int x = 0; x < size; x++) sum += std::pow(image.at(x, y, 0) - answer(x, y), 2);
-    return sum / (size * size);
+    for (int y = 0; y < plane.size; y++)
+        for (int x = 0; x < plane.size; x++) sum += std::pow(image.at(x, y, 0) - plane.answer(x, y), 2);
+    return sum / (plane.size * plane.size);
 }
 
 struct Slope {
@@ -74,7 +32,7 @@ struct Slope {
 // that the seeds' spread gives the error of their mean.
 Slope mse_slope(const RenderRequest& request, std::uint64_t first, int doublings, int seeds)
 {
-    const Scene scene = point_over_plane();
+    const Scene scene = plane.scene();
     std::vector<std::vector<double>> mse(static_cast<std::size_t>(seeds));
     for (int seed = 0; seed < seeds; seed++) {
         RenderSettings settings;

@@ -109,6 +109,41 @@ TEST(MergeImages, totals_are_summed_and_seeds_listed)
                                                    Pair("sundog:method", "path"), Pair("sundog:scene", "abc")}));
 }
 
+// Three renders of 4, 9 and 16 iterations, each an interval beside its own bias.
+TEST(MergeImages, error_bounds_are_those_of_the_mean)
+{
+    const std::vector<std::string> channels{"R", "G", "B", "error.R", "error.G", "error.B", "bias.R", "bias.G", "bias.B"};
+    const double counts[] = {4, 9, 16}, widths[] = {0.5, 0.25, 0.125}, biases[] = {-0.25, 0.5, 0.75};
+    for (const bool biased : {true, false}) {
+        SCOPED_TRACE(biased);
+        ImageMerger merger;
+        double bias = 0.0, squares = 0.0;
+        for (std::size_t part = 0; part < 3; part++) {
+            Image image(1, 1, biased ? channels : std::vector<std::string>(channels.begin(), channels.begin() + 6));
+            image.metadata = image_of(random_samples(2, 1), std::to_string(part)).metadata;
+            image.metadata.emplace_back("sundog:error_confidence", "0.9");
+            image.metadata.emplace_back("sundog:error_bound", "7");
+            set(image, "sundog:iterations", std::to_string(static_cast<int>(counts[part])));
+            for (std::size_t c = 0; c < 3; c++) {
+                image.pixels[c] = 2.0f;
+                image.pixels[3 + c] = static_cast<float>(widths[part] + (biased ? std::abs(biases[part]) : 0.0));
+                if (biased) image.pixels[6 + c] = static_cast<float>(biases[part]);
+            }
+            merger.add(image, "part.exr");
+            bias += counts[part] / 29.0 * (biased ? biases[part] : 0.0);
+            squares += std::pow(counts[part] / 29.0 * widths[part], 2);
+        }
+        const Image merged = merger.result();
+        const double bound = std::abs(bias) + std::sqrt(squares);
+        EXPECT_NEAR(merged.pixels[4], bound, 1e-6);
+        if (biased) {
+            EXPECT_NEAR(merged.pixels[7], bias, 1e-6);
+        }
+        const auto text = std::find_if(merged.metadata.begin(), merged.metadata.end(), [](const auto& m) { return m.first == "sundog:error_bound"; });
+        EXPECT_NEAR(std::stod(text->second), bound / std::sqrt(4.01), 1e-5);
+    }
+}
+
 // The message of adding `change`d to a part with seed 1.
 template <class Change> std::string refusal(Change change)
 {
@@ -134,6 +169,8 @@ TEST(MergeImages, parts_that_do_not_belong_together_are_refused)
     EXPECT_THAT(refusal([](Image& b) { set(b, "sundog:parameters", "max_depth=5 iterations=3 sampler=sobol"); }),
                 HasSubstr("is max_depth=5 sampler=sobol but that of a.exr is max_depth=4 sampler=sobol"));
     EXPECT_THAT(refusal([](Image& b) { set(b, "sundog:scene", "abd"); }), HasSubstr("another scene"));
+    EXPECT_THAT(refusal([](Image& b) { b.metadata.emplace_back("sundog:error_confidence", "0.9"); }),
+                HasSubstr("its error confidence is 0.9 but that of a.exr is none"));
     EXPECT_THAT(refusal([](Image& b) { set(b, "sundog:iterations", "0"); }), HasSubstr("it has no iterations"));
     EXPECT_THAT(refusal([](Image& b) { set(b, "sundog:iterations", "-3"); }), HasSubstr("sundog:iterations is no number"));
     EXPECT_THAT(refusal([](Image& b) { b.metadata.clear(); }), HasSubstr("it has no metadata sundog:iterations"));

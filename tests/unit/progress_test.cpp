@@ -143,6 +143,29 @@ TEST(ProgressReport, whichever_goal_comes_first_counts)
     EXPECT_EQ(line["seconds_left"], 5.0);
 }
 
+TEST(ProgressReport, an_error_that_falls_tells_when_it_is_small_enough)
+{
+    std::ostringstream out;
+    Progress progress(ProgressMode::json, {std::nullopt, std::nullopt, 0, ErrorGoal{0.05, 0.5}}, out);
+    progress.update(4, 2.0);
+    progress.set_error(8, 0.1); // half of it takes four times as many iterations
+    progress.update(16, 8.0);
+    const auto lines = lines_of(out.str());
+    const auto before = nlohmann::json::parse(lines.front()), after = nlohmann::json::parse(lines.back());
+    EXPECT_TRUE(before["error"].is_null());
+    EXPECT_EQ(before["target_error"], 0.05);
+    EXPECT_TRUE(before["seconds_left"].is_null());
+    EXPECT_EQ(after["error"], 0.1);
+    EXPECT_NEAR(after["fraction"].get<double>(), 0.5, 1e-9);
+    EXPECT_NEAR(after["seconds_left"].get<double>(), 8.0, 1e-9);
+
+    std::ostringstream bar;
+    Progress drawn(ProgressMode::bar, {1000, std::nullopt, 0, ErrorGoal{0.05, 1.0 / 3}}, bar, 120);
+    drawn.set_error(10, 0.1);
+    drawn.update(20, 10.0);
+    EXPECT_THAT(bar.str(), HasSubstr(" 25%  20/1000 iterations, 2.00/s, 0:10, 0:30 left, error 0.1 of 0.05"));
+}
+
 TEST(ProgressReport, off_is_off)
 {
     std::ostringstream out;

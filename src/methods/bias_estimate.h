@@ -1,0 +1,67 @@
+// The bias of density estimates, iteration by iteration: mu_2 / 2 r^2 Delta L, with the radius and the kernel that the
+// method used [Hachisuka, Jarosz and Jensen 2010], and the Laplacian by that of the triweight kernel. The variance
+// of that Laplacian is as 1 / (N h^6): at the method's own radii, r_i ~ i^(-1/6), it would not vanish. So Laplacians have
+// radii of their own, h_i ~ i^(-1/10), the optimal rate for second derivatives in the plane.
+#pragma once
+
+#include "methods/scene_gather.h"
+#include "shared/adaptive_radius.h"
+#include "stages/query_paths.h"
+
+#include <string>
+
+namespace sundog
+{
+
+// What the radiance was gathered with.
+struct GatheredWith {
+    int density_kernel = 0;     // n of (1 - t^2)^n
+    float inverse_paths = 0.0f; // 1 / emitted light subpaths, times the query's share of its pixel
+};
+
+// Bias from Laplacians that are known. Sum: LaplacianSum, or ErrorSum where a method needs Laplacians itself. Adds to the
+// film's error estimate, which there must be.
+template <class Sum> class BiasTerm
+{
+public:
+    explicit BiasTerm(RenderContext& context)
+        : context_(context), add_bias_(context.device, "add_bias", "Add bias", {{{"LAPLACIAN_SUM", std::string(device_type_name<Sum>())}}, {}})
+    {
+    }
+
+    // For queries with the radii that they are answered with.
+    void add(const Buffer<GatherQuery>& queries, const Buffer<Sum>& laplacians, GatheredWith gathered_with)
+    {
+        const float half_moment = 0.25f / (static_cast<float>(gathered_with.density_kernel) + 2.0f); // mu_2 / 2 on the disk
+        add_bias_(laplacians.size(), queries, laplacians, static_cast<uint>(laplacians.size()), half_moment * gathered_with.inverse_paths,
+                  context_.film.errors->bias);
+    }
+
+private:
+    RenderContext& context_;
+    Kernel add_bias_;
+};
+
+// Bias with Laplacians of its own.
+class BiasEstimate
+{
+public:
+    BiasEstimate(RenderContext& context, float first_radius);
+
+    // For which radius (scene units) a map must be built whose queries ask for at most `radius` themselves. Iterations from 0.
+    float map_radius(std::uint64_t iteration, float radius) const;
+
+    // For queries with the radii that they are answered with.
+    void add(const PhotonMap& map, const QueryTracer& queries, std::uint64_t iteration, GatheredWith gathered_with);
+
+private:
+    float laplacian_radius(std::uint64_t iteration) const;
+
+    float first_radius_;
+    Kernel widen_queries_;
+    BiasTerm<LaplacianSum> term_;
+    PhotonGather<LaplacianSum> laplacians_;
+    Buffer<GatherQuery> wide_;
+};
+
+} // namespace sundog
