@@ -7,7 +7,10 @@
 #include "math/warp.h"
 
 // K_Delta / laplacian_norm(r) for eight t^2 in [0, 1].
-static inline float8 laplacian_shape(float8 t_squared) { return (1.0f - t_squared) * (3.0f * t_squared - 1.0f); }
+static inline float8 laplacian_shape(float8 t_squared)
+{
+    return (1.0f - t_squared) * (3.0f * t_squared - 1.0f);
+}
 
 static inline float laplacian_norm(float radius)
 {

@@ -14,7 +14,10 @@ typedef struct Estimate {
     float8 red, green, blue;
 } Estimate;
 
-static inline void estimator_begin(Estimate* estimate, const GatherQuery* query) { estimate->red = estimate->green = estimate->blue = (float8)(0.0f); }
+static inline void estimator_begin(Estimate* estimate, const GatherQuery* query)
+{
+    estimate->red = estimate->green = estimate->blue = (float8)(0.0f);
+}
 
 static inline void estimator_add(Estimate* estimate, int8 mask, Offset8 offset, float8 t_squared, float8 red, float8 green, float8 blue)
 {

@@ -4,7 +4,8 @@
 #include "math/compensated.h"
 #include "shared/film.h"
 
-__kernel void accumulate_corrected(__global const Vec3* restrict radiance, uint count, __global Vec3* restrict bias, __global FilmPixel* restrict corrected)
+__kernel void accumulate_corrected(__global const Vec3* restrict radiance, uint count, __global Vec3* restrict bias,
+                                   __global FilmPixel* restrict corrected)
 {
     const uint index = get_global_id(0);
     if (index >= count) return;

@@ -6,8 +6,8 @@
 #include "shared/error_estimate.h"
 #include "shared/photon.h"
 
-__kernel void add_bias(__global const GatherQuery* restrict queries, __global const LAPLACIAN_SUM* restrict laplacians, uint count, float half_moment,
-                       __global Vec3* restrict bias)
+__kernel void add_bias(__global const GatherQuery* restrict queries, __global const LAPLACIAN_SUM* restrict laplacians, uint count,
+                       float half_moment, __global Vec3* restrict bias)
 {
     const uint index = get_global_id(0);
     if (index >= count) return;

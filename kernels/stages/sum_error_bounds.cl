@@ -33,21 +33,21 @@ static inline RelativeSquares channel_error(Sums film, Sums corrected, float n, 
     return error;
 }
 
-#define CHANNEL(pixel, c)                                                              \
-    {                                                                                  \
-        (pixel).sum.c, (pixel).sum_error.c, (pixel).squares.c, (pixel).squares_error.c \
+#define CHANNEL(pixel, c)                                                                                                                  \
+    {                                                                                                                                      \
+        (pixel).sum.c, (pixel).sum_error.c, (pixel).squares.c, (pixel).squares_error.c                                                     \
     }
-#define ADD_CHANNEL(c)                                                                  \
-    {                                                                                   \
-        const Sums of_film = CHANNEL(with_bias, c), of_corrected = CHANNEL(without, c); \
-        const RelativeSquares error = channel_error(of_film, of_corrected, n, quantile); \
-        total.bound += error.bound;                                                     \
-        total.bias += error.bias;                                                       \
-        total.noise += error.noise;                                                     \
+#define ADD_CHANNEL(c)                                                                                                                     \
+    {                                                                                                                                      \
+        const Sums of_film = CHANNEL(with_bias, c), of_corrected = CHANNEL(without, c);                                                    \
+        const RelativeSquares error = channel_error(of_film, of_corrected, n, quantile);                                                   \
+        total.bound += error.bound;                                                                                                        \
+        total.bias += error.bias;                                                                                                          \
+        total.noise += error.noise;                                                                                                        \
     }
 
-__kernel void sum_error_bounds(__global const FilmPixel* film, __global const FilmPixel* corrected, uint count, float n, float quantile, uint items,
-                               __global RelativeSquares* restrict sums)
+__kernel void sum_error_bounds(__global const FilmPixel* film, __global const FilmPixel* corrected, uint count, float n, float quantile,
+                               uint items, __global RelativeSquares* restrict sums)
 {
     const uint item = get_global_id(0);
     if (item >= items) return;

@@ -2,7 +2,8 @@
 // queries; writes wide. One work-item a query. Used where errors are estimated.
 #include "shared/photon.h"
 
-__kernel void widen_queries(__global const GatherQuery* restrict queries, uint count, float least_radius, float ratio, __global GatherQuery* restrict wide)
+__kernel void widen_queries(__global const GatherQuery* restrict queries, uint count, float least_radius, float ratio,
+                            __global GatherQuery* restrict wide)
 {
     const uint index = get_global_id(0);
     if (index >= count) return;

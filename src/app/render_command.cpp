@@ -199,21 +199,27 @@ private:
 };
 
 // Asks now and then whether the error is small enough. Bounds of few iterations say little, and each question costs a
-// pass over the film: the first comes after 8 iterations, the others when there are a sixteenth more.
+// pass over the film: the first comes after 8 iterations, the others when there are a sixteenth more. A resumed render
+// asks after the same iterations as an uninterrupted one, and so ends with the same.
 class ErrorWatch {
 public:
-    explicit ErrorWatch(std::optional<double> target) : target_(target) {}
+    ErrorWatch(std::optional<double> target, std::uint64_t iterations_done) : target_(target)
+    {
+        while (next_ < iterations_done) next_ = after(next_);
+    }
     void update(const RenderSession& session, Progress& progress)
     {
         if (!target_ || session.iterations_done() < next_) return;
         const double bound = session.relative_error().bound;
         progress.set_error(session.iterations_done(), bound);
         met_ = bound <= *target_;
-        next_ = session.iterations_done() + std::max<std::uint64_t>(1, session.iterations_done() / 16);
+        next_ = after(next_);
     }
     bool met() const { return met_; }
 
 private:
+    static std::uint64_t after(std::uint64_t iterations) { return iterations + std::max<std::uint64_t>(1, iterations / 16); }
+
     std::optional<double> target_;
     std::uint64_t next_ = 8;
     bool met_ = false;
@@ -243,7 +249,7 @@ IterationsEnd iterate(RenderSession& session, const RenderPlan& plan, std::optio
 
     const Timer timer;
     CheckpointSchedule checkpoints(plan.checkpoint);
-    ErrorWatch error(plan.target_error);
+    ErrorWatch error(plan.target_error, session.iterations_done());
     error.update(session, progress); // of a checkpoint
     progress.update(session.iterations_done(), 0.0);
     const auto finished = [&] {

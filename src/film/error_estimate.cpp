@@ -8,17 +8,25 @@
 #include <cmath>
 #include <limits>
 
-namespace sundog {
+namespace sundog
+{
 
-namespace {
+namespace
+{
 
 // Partial sums that a reduction leaves to the host: enough for a GPU, and pixels enough for each.
 constexpr std::size_t most_partial_sums = 4096;
 constexpr std::size_t pixels_a_sum = 64;
 
-BuildOptions bound_options(bool biased) { return {{{"BIASED", biased ? "1" : "0"}}, {}}; }
+BuildOptions bound_options(bool biased)
+{
+    return {{{"BIASED", biased ? "1" : "0"}}, {}};
+}
 
-const float* component(const Vec3& v, int c) { return c == 0 ? &v.x : c == 1 ? &v.y : &v.z; }
+const float* component(const Vec3& v, int c)
+{
+    return c == 0 ? &v.x : c == 1 ? &v.y : &v.z;
+}
 
 Moments channel_moments(const FilmPixel& p, int c, double n)
 {
@@ -33,7 +41,10 @@ int channel_index(const Image& image, const std::string& name)
 
 } // namespace
 
-double RelativeError::expected() const { return std::sqrt(bias * bias + noise * noise); }
+double RelativeError::expected() const
+{
+    return std::sqrt(bias * bias + noise * noise);
+}
 
 ErrorEstimate::ErrorEstimate(Device& device, std::size_t pixels, bool biased, double confidence)
     : confidence_(confidence), sum_error_bounds_(device, "sum_error_bounds", "Sum error bounds", bound_options(biased)),
@@ -50,7 +61,10 @@ void ErrorEstimate::accumulate(const Buffer<Vec3>& radiance)
     if (biased()) accumulate_corrected_(bias.size(), radiance, static_cast<uint>(bias.size()), bias, corrected_);
 }
 
-double ErrorEstimate::quantile(std::uint64_t n) const { return student_t_quantile(0.5 * (1.0 - confidence_), static_cast<double>(n - 1)); }
+double ErrorEstimate::quantile(std::uint64_t n) const
+{
+    return student_t_quantile(0.5 * (1.0 - confidence_), static_cast<double>(n - 1));
+}
 
 RelativeError ErrorEstimate::relative_error(const Buffer<FilmPixel>& film, std::uint64_t n) const
 {

@@ -12,17 +12,19 @@
 #include <string>
 #include <vector>
 
-namespace sundog {
+namespace sundog
+{
 
 // Squared errors e^2 / (L^2 + 0.01) as in `relmse` (film/compare.h); here the root of their mean over pixels and R, G, B.
 struct RelativeError {
-    double bound = 0.0; // of what each channel's error exceeds with probability 1 - confidence at most
-    double bias = 0.0; // as estimated
-    double noise = 0.0; // one standard error
+    double bound = 0.0;      // of what each channel's error exceeds with probability 1 - confidence at most
+    double bias = 0.0;       // as estimated
+    double noise = 0.0;      // one standard error
     double expected() const; // sqrt(bias^2 + noise^2)
 };
 
-class ErrorEstimate {
+class ErrorEstimate
+{
 public:
     // biased: methods add to `bias` before each iteration is accumulated. confidence: of bounds, in (0, 1).
     ErrorEstimate(Device& device, std::size_t pixels, bool biased, double confidence);

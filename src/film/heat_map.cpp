@@ -8,9 +8,11 @@
 #include <cmath>
 #include <numbers>
 
-namespace sundog {
+namespace sundog
+{
 
-namespace {
+namespace
+{
 
 // From OKLab [Ottosson 2020, "A perceptual color space for image processing"] to linear sRGB.
 MapColor linear_srgb(double lightness, double a, double b)
@@ -61,7 +63,8 @@ Image heat_map(const Image& image)
 
 std::string heat_map_legend()
 {
-    return fmt::format("relative error bound from {:g} (dark blue) by factors of 10 (violet, red) to {:g} and more (light yellow)", heat_map_least, heat_map_most);
+    return fmt::format("relative error bound from {:g} (dark blue) by factors of 10 (violet, red) to {:g} and more (light yellow)",
+                       heat_map_least, heat_map_most);
 }
 
 } // namespace sundog

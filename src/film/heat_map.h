@@ -5,7 +5,8 @@
 
 #include <string>
 
-namespace sundog {
+namespace sundog
+{
 
 // Linear sRGB of a value in [0, 1]: from dark blue through red to light yellow. Lightness (of OKLab, Ottosson 2020) grows
 // in proportion, so that equal steps look equal, in grey as well.

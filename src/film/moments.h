@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-namespace sundog {
+namespace sundog
+{
 
 struct Moments {
     double mean = 0.0;

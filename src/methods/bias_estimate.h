@@ -25,7 +25,8 @@ template <class Sum> class BiasTerm
 {
 public:
     explicit BiasTerm(RenderContext& context)
-        : context_(context), add_bias_(context.device, "add_bias", "Add bias", {{{"LAPLACIAN_SUM", std::string(device_type_name<Sum>())}}, {}})
+        : context_(context),
+          add_bias_(context.device, "add_bias", "Add bias", {{{"LAPLACIAN_SUM", std::string(device_type_name<Sum>())}}, {}})
     {
     }
 

@@ -38,8 +38,8 @@ TEST_F(ErrorStage, BiasOfAParaboloidIsExact)
         for (int k = 0; k < side; k++) {
             const double x = 2.0 * (i + 0.5) / side - 1.0, y = 2.0 * (k + 0.5) / side - 1.0, cell = 4.0 / (side * side);
             const double curved = 3.0 + 0.7 * x + 1.5 * x * x - 0.4 * y * y + 2.0 * x * y, saddle = 2.0 + x * x - y * y;
-            photons.push_back(make_test_photon(
-                to_float(Vec3d(x, y, 0)), {static_cast<float>(curved * cell), static_cast<float>(cell), static_cast<float>(saddle * cell)}));
+            photons.push_back(make_test_photon(to_float(Vec3d(x, y, 0)), {static_cast<float>(curved * cell), static_cast<float>(cell),
+                                                                          static_cast<float>(saddle * cell)}));
         }
     PhotonCloud cloud(device_, {{-1, -1, -1}, {1, 1, 1}}, photons.size());
     cloud.build(photons, 0.9f);
@@ -97,7 +97,8 @@ TEST_F(ErrorStage, WidensAndAddsWhereThereIsAQuery)
         EXPECT_EQ(widened[i].radius, r == 0.0f ? 0.0f : std::max(0.3f, 1.5f * r));
         EXPECT_EQ(widened[i].flags, i);
         const bool counts = r > 0.0f && i % 7 != 0;
-        EXPECT_NEAR(got[i].x, before[i].x + (counts ? 0.125f * r * r * queries[i].throughput.x * laplacians[i].laplacian.x : 0.0f), 1e-5f) << i;
+        EXPECT_NEAR(got[i].x, before[i].x + (counts ? 0.125f * r * r * queries[i].throughput.x * laplacians[i].laplacian.x : 0.0f), 1e-5f)
+            << i;
         EXPECT_NEAR(got[i].y, counts ? 0.125f * r * r * queries[i].throughput.y * laplacians[i].laplacian.y : 0.0f, 1e-5f) << i;
     }
 }
@@ -130,7 +131,8 @@ TEST_F(ErrorStage, BoundsAreThoseOfPlainStatistics)
                 const float level = std::pow(10.0f, static_cast<float>(path % 5) - 2.0f), noise = path % 2 == 0 ? level : 1e-3f * level;
                 radiance[path] = {level + uniform(-noise, noise), uniform(0, level), path % 3 == 0 ? 0.0f : level};
                 bias[path] = {uniform(-noise, 2 * noise), uniform(0, 0.2f) * radiance[path].y, 0.0f};
-                const float seen[3] = {radiance[path].x, radiance[path].y, radiance[path].z}, wrong[3] = {bias[path].x, bias[path].y, bias[path].z};
+                const float seen[3] = {radiance[path].x, radiance[path].y, radiance[path].z},
+                            wrong[3] = {bias[path].x, bias[path].y, bias[path].z};
                 for (std::size_t c = 0; c < 3; c++) {
                     history[3 * path + c].seen.push_back(seen[c]);
                     history[3 * path + c].bias.push_back(wrong[c]);
@@ -212,13 +214,14 @@ public:
     void serialize(StateArchive&) override {}
 };
 
-const MethodRegistration blind({.name = "blind",
-                                .title = "",
-                                .paper = "",
-                                .estimator_class = "unbiased",
-                                .description = "",
-                                .parameters = {},
-                                .create = [](RenderContext&, const Parameters&) -> std::unique_ptr<Method> { return std::make_unique<Blind>(); }});
+const MethodRegistration
+    blind({.name = "blind",
+           .title = "",
+           .paper = "",
+           .estimator_class = "unbiased",
+           .description = "",
+           .parameters = {},
+           .create = [](RenderContext&, const Parameters&) -> std::unique_ptr<Method> { return std::make_unique<Blind>(); }});
 
 TEST_F(ErrorStage, MethodsThatCannotAreRefusedByName)
 {
@@ -231,7 +234,8 @@ TEST_F(ErrorStage, MethodsThatCannotAreRefusedByName)
         RenderSession session(scene, device_, settings);
         FAIL() << "accepted";
     } catch (const UsageError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("blind cannot estimate its error; choose one of appm, cppm, path, ppm, pppm, ptracer, sppm"));
+        EXPECT_THAT(error.what(),
+                    testing::HasSubstr("blind cannot estimate its error; choose one of appm, cppm, path, ppm, pppm, ptracer, sppm"));
     }
 }
 

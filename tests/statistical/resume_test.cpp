@@ -39,6 +39,13 @@ RenderSettings settings_for(const std::string& method, const std::map<std::strin
     return settings;
 }
 
+// Settings that ask for errors as well.
+RenderSettings with_errors(RenderSettings settings)
+{
+    settings.errors = ErrorSettings{};
+    return settings;
+}
+
 struct Result {
     std::vector<float> pixels;
     RenderStatistics statistics;
@@ -153,6 +160,28 @@ TEST_P(ResumePhotonMaps, ResumedIsUninterruptedInAHashedGrid)
     expect_same(render_in_parts(settings, {2, total_iterations}), whole);
 }
 
+// The channels of errors are part of the image.
+TEST_P(ResumeMethods, ResumedIsUninterruptedWithErrors)
+{
+    const RenderSettings settings = with_errors(settings_for(GetParam()));
+    const Result whole = render_in_parts(settings, {total_iterations});
+    EXPECT_GT(whole.pixels.size(), render_in_parts(settings_for(GetParam()), {1}).pixels.size());
+    const Result parts = render_in_parts(settings, {1, 3, total_iterations});
+    expect_same(parts, whole);
+    EXPECT_EQ(parts.statistics.error->bound, whole.statistics.error->bound);
+}
+
+// Asking for errors is no other render: pixels are the same but for rounding, since photons are summed in another order.
+TEST_P(ResumeMethods, ErrorsLeaveTheImageAlone)
+{
+    const Result plain = render_in_parts(settings_for(GetParam()), {3}), asked = render_in_parts(with_errors(settings_for(GetParam())), {3});
+    const std::size_t pixels = 27 * 27, channels = plain.pixels.size() / pixels, more = asked.pixels.size() / pixels;
+    for (std::size_t i = 0; i < pixels; i++)
+        for (std::size_t c = 0; c < channels; c++)
+            ASSERT_NEAR(asked.pixels[i * more + c], plain.pixels[i * channels + c], 1e-4 * std::abs(plain.pixels[i * channels + c]) + 1e-6) << i << " " << c;
+    EXPECT_EQ(asked.statistics.counters.photons_stored, plain.statistics.counters.photons_stored);
+}
+
 TEST_P(ResumeMethods, AnotherPartIsAnotherImage)
 {
     const RenderSettings settings = settings_for(GetParam());
@@ -180,7 +209,15 @@ TEST_F(Resume, AnotherRenderIsRefusedByName)
     EXPECT_THAT(refusal(glass_box(), settings_for("sppm")), HasSubstr("render.checkpoint: cannot resume, the checkpoint is of method pppm, not sppm; use -m pppm"));
     EXPECT_THAT(refusal(glass_box(), settings_for("pppm", {{"alpha", "0.5"}})), HasSubstr("not alpha=0.5; use -p alpha="));
     EXPECT_THAT(refusal(glass_box(), settings_for("pppm", {}, 8)), HasSubstr("is of seed 7, not 8; use -s 7"));
+    EXPECT_THAT(refusal(glass_box(), with_errors(settings_for("pppm"))),
+                HasSubstr("is of a render that does not estimate its error; leave out --errors, --error-image and --target-error, or choose"));
     EXPECT_THAT(refusal(glass_box(28), settings_for("pppm")), HasSubstr("is of 27x27 pixels, not 28x28"));
+}
+
+TEST_F(Resume, ARenderWithErrorsIsAnotherThanOneWithout)
+{
+    save_one(with_errors(settings_for("path")));
+    EXPECT_THAT(refusal(glass_box(), settings_for("path")), HasSubstr("is of a render that estimates its error; use --errors, or choose"));
 }
 
 // Whatever changes a pixel is another scene; a moved file, and another goal, are not.

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-namespace sundog::test {
+namespace sundog::test
+{
 
 struct PointOverPlane {
-    int size; // pixels
+    int size;          // pixels
     double half_patch; // the camera sees [-half_patch, half_patch]^2 of the plane
 
     static constexpr float height = 1.0f;
