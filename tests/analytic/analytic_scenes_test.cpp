@@ -14,7 +14,7 @@ using namespace sundog::test;
 namespace {
 
 constexpr int replicates = 10;
-constexpr int tests_in_file = 44; // bounds the family for the Bonferroni correction below
+constexpr int tests_in_file = 47; // bounds the family for the Bonferroni correction below
 
 // The number after "answer:" in the scene's comment.
 double answer_of(const std::string& scene)
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"point-over-plane", "ptracer", {{"photons", "65536"}}}, Case{"sphere-light", "path", {}},
                     Case{"sphere-light", "ptracer", {{"photons", "131072"}}}, Case{"glass-in-white", "path", {}}, Case{"furnace", "path", {{"sampler", "sobol"}}},
                     Case{"orthographic-plane", "path", {}}, Case{"orthographic-plane", "ptracer", {{"photons", "65536"}}},
-                    Case{"furnace", "ptracer", {{"sampler", "sobol"}}}),
+                    Case{"furnace", "ptracer", {{"sampler", "sobol"}}}, Case{"collimated-beam", "ptracer", {}}),
     name_of);
 
 // In the furnace and under parallel light the irradiance is the same everywhere: away from edges there is no bias.
@@ -95,6 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"parallel-light", "pppm", {{"radius", "0.2"}, {"direct", "photons"}, {"photons", "32768"}}},
                     Case{"parallel-light", "sppm", {{"radius", "0.2"}, {"direct", "photons"}, {"photons", "32768"}}}, Case{"parallel-light", "pppm", {}},
                     Case{"parallel-light", "sppm", {}}, Case{"point-over-plane", "pppm", {}}, Case{"point-over-plane", "sppm", {}},
+                    Case{"collimated-beam", "pppm", {{"radius", "0.05"}, {"direct", "photons"}}}, Case{"collimated-beam", "pppm", {{"radius", "0.05"}}},
                     Case{"sphere-light", "pppm", {}}, Case{"sphere-light", "sppm", {}}, Case{"glass-in-white", "pppm", {}}, Case{"glass-in-white", "sppm", {}},
                     Case{"orthographic-plane", "pppm", {}}, Case{"orthographic-plane", "sppm", {}}, Case{"glass-in-white", "cppm", {}}, Case{"glass-in-white", "appm", {}},
                     Case{"furnace", "appm", {{"radius", "0.1"}, {"direct", "photons"}}}, Case{"glass-in-white", "ppm", {}},
