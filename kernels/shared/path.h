@@ -22,6 +22,8 @@ SHARED_SIZE(PathState, 32);
 #define PATH_FROM_DELTA_LIGHT 1u
 // Dispersion has left the path one of its three wavelengths (kernels/scene/dispersion.h).
 #define PATH_ONE_WAVELENGTH 2u
+// A light path that a lobe has scattered which is neither specular nor narrow.
+#define PATH_SCATTERED_BROADLY 4u
 
 // max_depth: most edges of a whole path from light to camera, UNBOUNDED_DEPTH for no bound.
 // rr_depth: Russian roulette starts at this vertex.
