@@ -1,7 +1,10 @@
 // One sweep of photon relaxation [Spencer and Jones 2009, ACM TOG 28(2), Into the Blue, section 4]: each photon moves away
 // from its -D NEIGHBOURS nearest of the same surface and direction, by the mean of (r - d_k) u_k over them, u_k being the
 // unit vector from neighbour k at distance d_k and r the distance of the last. Flux moves with its photon, so none is lost;
-// what evens out is noise. Structure stays where a photon's neighbours show some:
+// what evens out is noise. Structure stays as far as a photon's neighbours show it:
+// - where light grows to one side, the centroid c of the neighbours lies there. A linear gradient g has c = g r^2 / 4 and by
+//   the mean above pushes photons down by g r^2 / 12, so that sweeps would blur the light like heat; c / 3 more, and they
+//   feel no gradient;
 // - where they lie to one side, as at the edge of a caustic or of a surface, it does not move to the other;
 // - where they lie along a line, it moves along that alone.
 // Reads cell ends of a dense grid and photon streams, which hold the positions before the sweep; updates photons. One
@@ -12,10 +15,10 @@
 #include "math/simd8.h"
 #include "shared/relaxation.h"
 
-// Neighbours whose centroid is further off than this, in r, lie to one side. Of even light 1 in 17 is at K = 16, where the
-// distance is distributed as exp(-2 K c^2): those photons are held back for a sweep.
+// Neighbours whose centroid is further off than this, in r, lie to one side. In even light it is further than c with the
+// probability exp(-2 K c^2), 1 in 18: those photons are held back for a sweep.
 #define ONE_SIDED (1.2f * rsqrt((float)NEIGHBOURS))
-// Their variances along both axes: below this ratio they lie along a line. Even light: 1 in 500 at K = 16.
+// Their variances along both axes: below this ratio they lie along a line.
 #define ALONG_A_LINE 0.2f
 // Fewer than this show nothing.
 #define LEAST_NEIGHBOURS 4u
@@ -89,6 +92,7 @@ static inline float2 displacement(const Neighbours* neighbours)
     }
     away /= (float)neighbours->count;
     centroid /= (float)neighbours->count;
+    away += centroid * (1.0f / 3.0f); // no force of a gradient
     const float2 line = line_of(neighbours);
     if (line.x != 0.0f || line.y != 0.0f) away = line * dot(away, line);
     const float outwards = -dot(away, centroid);

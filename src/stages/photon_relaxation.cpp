@@ -7,7 +7,7 @@ namespace
 {
 
 // More see structure better and smooth on a larger scale; the search for them costs the most.
-constexpr int neighbours = 16;
+constexpr int neighbours = 32;
 
 } // namespace
 
@@ -24,8 +24,8 @@ void PhotonRelaxation::relax(std::vector<Photon>& photons, int sweeps)
     records.assign(photons);
     for (int sweep = 0; sweep < sweeps; sweep++) {
         map_.build_dense(records, photons.size(), relaxation_.first_radius);
-        relax_photons_(photons.size(), map_.grid(), map_.cell_ends(), map_.cell_ends_offset(), map_.streams(), relaxation_, static_cast<uint>(photons.size()),
-                       records.records());
+        relax_photons_(photons.size(), map_.grid(), map_.cell_ends(), map_.cell_ends_offset(), map_.streams(), relaxation_,
+                       static_cast<uint>(photons.size()), records.records());
     }
     photons = records.records().download(0, photons.size());
 }
