@@ -1,8 +1,11 @@
-// Photons that are traced once, before the first iteration.
+// Photons that are traced once, before the first iteration, or come from a file.
 #pragma once
 
+#include "methods/parameters.h"
 #include "methods/render_context.h"
 #include "stages/light_paths.h"
+
+#include <optional>
 
 namespace sundog
 {
@@ -16,5 +19,14 @@ struct TracedPhotons {
 // Light paths in batches of equal size, so that memory does not grow with their number. Maps of one render that are to be
 // independent of each other have different numbers.
 TracedPhotons trace_photons(RenderContext& context, PhotonTracerSettings settings, uint map_number);
+
+// What the maps of photonmapper hold. Without caustic map: nothing in the scene focuses light.
+struct MapPhotons {
+    TracedPhotons global;
+    std::optional<TracedPhotons> caustic;
+};
+
+// Traced as the parameters say, or read from load_map; and written to save_map. Throws FileError.
+MapPhotons make_map_photons(RenderContext& context, const Parameters& parameters);
 
 } // namespace sundog

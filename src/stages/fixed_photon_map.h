@@ -26,6 +26,7 @@ public:
     void add_radiance(Buffer<GatherQuery>& queries, const Buffer<LobeRecord>& lobes, Buffer<Vec3>& radiance);
 
     const PhotonLookup& lookup() const { return lookup_; }
+    std::size_t capacity() const { return gather_.sums.size(); } // most queries at once
 
 private:
     PhotonLookup lookup_;
