@@ -41,7 +41,8 @@ static inline void insert_neighbour(Neighbours* neighbours, float square, float2
     neighbours->offsets[place] = offset;
 }
 
-static inline void add_neighbours(PhotonRun run, const GatherQuery* self, float3 direction, float least_cosine, Frame frame, __global const float* streams,
+// Those nearer than the root of `limit`. Returns the limit for what follows.
+static inline float add_neighbours(PhotonRun run, const GatherQuery* self, float3 direction, float least_cosine, Frame frame, __global const float* streams,
                                   uint stride, float limit, Neighbours* neighbours)
 {
     const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
@@ -59,12 +60,14 @@ static inline void add_neighbours(PhotonRun run, const GatherQuery* self, float3
         vstore8(x * frame.t.x + y * frame.t.y + z * frame.t.z, 0, v);
         for (int lanes = mask8(mask); lanes != 0; lanes &= lanes - 1) {
             const int k = first_lane(lanes);
-            if (neighbours->count == NEIGHBOURS && !(distance[k] < neighbours->squares[NEIGHBOURS - 1u])) continue;
+            if (!(distance[k] < limit)) continue;
             const uint packed = as_uint(streams[(size_t)PHOTON_DIRECTION * stride + i + (uint)k]);
             if (least_cosine > -1.0f && dot(unpack_direction(packed), direction) < least_cosine) continue;
             insert_neighbour(neighbours, distance[k], (float2)(u[k], v[k]));
+            if (neighbours->count == NEIGHBOURS) limit = neighbours->squares[NEIGHBOURS - 1u];
         }
     }
+    return limit;
 }
 
 // The axis of a line that they lie along, or 0: by their covariance about the photon.
@@ -116,11 +119,12 @@ __kernel void relax_photons(PhotonGrid grid, __global const uint* restrict cell_
     Neighbours neighbours;
     for (float radius = fmin(relaxation.first_radius, relaxation.largest_radius);; radius = fmin(2.0f * radius, relaxation.largest_radius)) {
         neighbours.count = 0u;
+        float limit = radius * radius;
         const CellRange range = cells_within(&grid, unpack(photon.position), radius);
         for (uint z = range.z0; z <= range.z1; ++z)
             for (uint y = range.y0; y <= range.y1; ++y)
-                add_neighbours(row_run(&grid, cell_ends + cell_ends_offset, &range, y, z), &self, unpack_direction(photon.direction), relaxation.least_cosine,
-                               frame, streams, grid.stride, radius * radius, &neighbours);
+                limit = add_neighbours(row_run(&grid, cell_ends + cell_ends_offset, &range, y, z), &self, unpack_direction(photon.direction),
+                                       relaxation.least_cosine, frame, streams, grid.stride, limit, &neighbours);
         if (neighbours.count == NEIGHBOURS || radius >= relaxation.largest_radius) break;
     }
     if (neighbours.count < LEAST_NEIGHBOURS) return;

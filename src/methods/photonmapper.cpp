@@ -37,13 +37,13 @@ public:
         MapPhotons photons = make_map_photons(context, parameters);
         const int sweeps = static_cast<int>(parameters.integer("relaxation"));
         const PhotonLookup lookup = global_lookup(context, parameters, photons.global.light_paths);
-        if (sweeps > 0) relaxation_of(lookup, any_direction).relax(photons.global.photons, sweeps);
+        if (sweeps > 0) PhotonRelaxation(context.device, lookup.radius, any_direction).relax(photons.global.photons, sweeps);
         if (parameters.boolean("final_gather"))
             final_gather_.emplace(context.device, context.scene, camera_.count(), query_rules(parameters), sampler_kind(parameters));
         add_map(global_, photons.global, lookup);
         if (photons.caustic) {
             const PhotonLookup focused = caustic_lookup(context, parameters, photons.caustic->light_paths);
-            if (sweeps > 0) relaxation_of(focused, one_wavefront).relax(photons.caustic->photons, sweeps);
+            if (sweeps > 0) PhotonRelaxation(context.device, focused.radius, one_wavefront).relax(photons.caustic->photons, sweeps);
             add_map(caustic_, *photons.caustic, focused);
         }
         if (parameters.boolean("precompute")) irradiance_.emplace(context.device, context.scene, photons.global.photons, *global_);
@@ -90,12 +90,6 @@ private:
         if (path_rules(parameters).max_depth != UNBOUNDED_DEPTH)
             parameters.refuse("precompute", "photonmapper's precompute=true sums light of all depths: it cannot go with max_depth=" +
                                                 parameters.text("max_depth") + "; use -p max_depth=-1");
-    }
-
-    // Photons lie far denser in places than in even light, so that the search for neighbours begins small.
-    PhotonRelaxation relaxation_of(const PhotonLookup& lookup, float least_cosine) const
-    {
-        return {context_.device, context_.scene.bounds(), {0.25f * lookup.usual_radius, lookup.radius, least_cosine}};
     }
 
     void add_map(std::optional<FixedPhotonMap>& map, const TracedPhotons& traced, const PhotonLookup& lookup)

@@ -14,8 +14,8 @@ namespace sundog
 class PhotonRelaxation
 {
 public:
-    // bounds: of everything that photons lie on. relaxation: how neighbours are looked for.
-    PhotonRelaxation(Device& device, const Bounds& bounds, const Relaxation& relaxation);
+    // Neighbours are at most so far away (scene units), and their directions have at least that cosine; -1: any.
+    PhotonRelaxation(Device& device, float largest_radius, float least_cosine);
 
     // Moves the photons by so many sweeps, each from where all lay after the one before. Their flux, direction and number
     // stay as they are.
@@ -23,8 +23,7 @@ public:
 
 private:
     Device& device_;
-    Relaxation relaxation_;
-    PhotonMap map_;
+    float largest_radius_, least_cosine_;
     Kernel relax_photons_;
 };
 
