@@ -1,4 +1,4 @@
-// How photons are moved apart [Spencer and Jones 2009, ACM TOG 28(2), Into the Blue].
+// How photons are moved apart [Spencer and Jones 2009, Computer Graphics Forum 28(2), Into the Blue].
 #ifndef SUNDOG_SHARED_RELAXATION_H
 #define SUNDOG_SHARED_RELAXATION_H
 #include "shared/vec3.h"

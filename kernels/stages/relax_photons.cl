@@ -1,4 +1,4 @@
-// One sweep of photon relaxation [Spencer and Jones 2009, ACM TOG 28(2), Into the Blue, section 4]: each photon moves away
+// One sweep of photon relaxation [Spencer and Jones 2009, Computer Graphics Forum 28(2), Into the Blue, section 4]: each photon moves away
 // from its -D NEIGHBOURS nearest of the same surface and direction, by the mean of (r - d_k) u_k over them, u_k being the
 // unit vector from neighbour k at distance d_k and r the distance of the last. Flux moves with its photon, so none is lost;
 // what evens out is noise. Structure stays as far as a photon's neighbours show it:

@@ -1,4 +1,4 @@
-// Photon relaxation [Spencer and Jones 2009, ACM TOG 28(2), Into the Blue: Better Caustics through Photon Relaxation]: an
+// Photon relaxation [Spencer and Jones 2009, Computer Graphics Forum 28(2), Into the Blue: Better Caustics through Photon Relaxation]: an
 // operation on photons that are to make a map. They are moved apart until they lie evenly, which takes most of the noise
 // from estimates of few photons; what noise there is of their own flux stays.
 #pragma once
