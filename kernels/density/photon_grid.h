@@ -65,4 +65,27 @@ static inline uint find_photon_runs(const PhotonGrid* grid, __global const uint*
     return count;
 }
 
+// Cells of a dense grid that a ball touches; those beyond the grid's border are its border's, where photons outside lie.
+typedef struct CellRange {
+    uint x0, x1, y0, y1, z0, z1; // all included
+} CellRange;
+
+static inline CellRange cells_within(const PhotonGrid* grid, float3 position, float radius)
+{
+    // Rounding may have put a photon into the next cell.
+    const float3 reach = radius * grid->inverse_cell_size + 1e-3f;
+    const float3 cell = (position - unpack(grid->origin)) * grid->inverse_cell_size;
+    const float3 last = (float3)((float)(grid->cells_x - 1u), (float)(grid->cells_y - 1u), (float)(grid->cells_z - 1u));
+    const float3 low = clamp(cell - reach, (float3)(0.0f), last), high = clamp(cell + reach, (float3)(0.0f), last);
+    const CellRange range = {(uint)low.x, (uint)high.x, (uint)low.y, (uint)high.y, (uint)low.z, (uint)high.z};
+    return range;
+}
+
+// The photons of one of its rows.
+static inline PhotonRun row_run(const PhotonGrid* grid, __global const uint* cell_ends, const CellRange* range, uint y, uint z)
+{
+    const uint row = grid_row(grid, y, z);
+    return photon_run(cell_ends, row + range->x0, row + range->x1);
+}
+
 #endif

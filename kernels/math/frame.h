@@ -60,4 +60,10 @@ static inline uint pack_normal(float3 v)
     return q.x | (q.y << 12);
 }
 
+static inline float3 unpack_normal(uint packed)
+{
+    const float2 q = (float2)((float)(packed & 0xfffu), (float)((packed >> 12) & 0xfffu));
+    return from_octahedral((q + 0.5f) * (1.0f / 2048.0f) - 1.0f);
+}
+
 #endif

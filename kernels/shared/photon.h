@@ -19,6 +19,12 @@ SHARED_SIZE(Photon, 32);
 #define PHOTON_DEPTH_SHIFT 25u
 #define PHOTON_MAX_DEPTH 127u // deeper ones count as this deep
 
+// Which photons light paths leave (-D PHOTONS_KEPT): all, those that specular and narrow lobes alone have scattered since
+// their light, or the others.
+#define PHOTONS_ALL 0
+#define PHOTONS_CAUSTIC 1
+#define PHOTONS_SCATTERED 2
+
 // In the map photons lie as structure of arrays: eight streams, each `stride` long.
 #define PHOTON_X 0u
 #define PHOTON_Y 1u

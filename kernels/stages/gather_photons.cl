@@ -1,43 +1,16 @@
 // Asks the photon map: for each query, the estimator's sum over the photons within its radius that lie on its
 // side of the surface and do not make the path too long. Reads queries, cell ends and photon streams; writes
 // sums (zero where there is no query). One work-item a query; eight photons at a time. The estimator
-// (kernels/estimators) is the program's prelude. Used by the photon mapping methods.
+// (kernels/estimators) is the program's prelude. -D WIDE_QUERIES=1: radii may exceed the one that the grid was built for,
+// which is dense. Used by the photon mapping methods.
 #include "density/photon_grid.h"
+#include "density/wanted_photons.h"
 #include "math/simd8.h"
 #include "shared/bsdf.h"
 // -D GATHERS_LOBES=1 where queries may come from lobes other than diffuse ones.
 #if GATHERS_LOBES
 #include "scene/bsdf.h"
 #endif
-
-// Photons whose normal is further than this from the query's lie on another surface.
-#define MIN_NORMAL_COSINE 0.7f
-
-// Lanes whose packed normal is close to the query's (or, for a lobe that transmits, to its opposite): n . m > c |m| for the unnormalised octahedral m.
-static inline int8 on_same_side(uint8 packed, float3 normal, bool both_sides)
-{
-    float8 x = convert_float8(as_int8(packed & 0xfffu)) * (1.0f / 2048.0f) - (2047.5f / 2048.0f);
-    float8 y = convert_float8(as_int8((packed >> 12) & 0xfffu)) * (1.0f / 2048.0f) - (2047.5f / 2048.0f);
-    const float8 ax = fabs(x), ay = fabs(y);
-    const float8 z = 1.0f - ax - ay;
-    const float8 fold = z < 0.0f ? -z : (float8)(0.0f);
-    x -= copysign(fold, x);
-    y -= copysign(fold, y);
-    const float8 cosine = x * normal.x + y * normal.y + z * normal.z;
-    return ((cosine > 0.0f) | (int8)(both_sides ? -1 : 0)) & (cosine * cosine > (MIN_NORMAL_COSINE * MIN_NORMAL_COSINE) * (x * x + y * y + z * z));
-}
-
-static inline float8 load_stream(__global const float* streams, uint stream, uint stride, uint i) { return vload8(0, streams + (size_t)stream * stride + i); }
-
-// Lanes that the query asks for, whose photons make no path too long.
-static inline int8 wanted(uint8 normal_depth, const GatherQuery* query)
-{
-    const uint8 max_depth = (uint8)(min(query->max_photon_depth, PHOTON_MAX_DEPTH));
-    int8 mask = on_same_side(normal_depth, unpack(query->normal), (query->flags & QUERY_BOTH_SIDES) != 0u);
-    mask &= as_int8((normal_depth >> PHOTON_DEPTH_SHIFT) <= max_depth);
-    if (query->flags & QUERY_UNREACHED_ONLY) mask &= as_int8((normal_depth & PHOTON_UNREACHED) != 0u);
-    return mask;
-}
 
 typedef struct Flux8 {
     float8 red, green, blue;
@@ -100,13 +73,21 @@ __kernel void gather_photons(PhotonGrid grid, __global const uint* restrict cell
     const GatherQuery query = queries[index];
     ESTIMATOR_RESULT sum = {{0.0f}};
     if (query.radius > 0.0f) {
-        PhotonRun runs[8];
-        const uint run_count = find_photon_runs(&grid, cell_ends + cell_ends_offset, unpack(query.position), runs);
+        const float3 position = unpack(query.position);
         LobeRecord lobe;
         if (GATHERS_LOBES && (query.flags & QUERY_EVALUATES_LOBE)) lobe = query_lobes[index];
         Estimate estimate;
         estimator_begin(&estimate, &query);
+#if WIDE_QUERIES
+        const CellRange range = cells_within(&grid, position, query.radius);
+        for (uint z = range.z0; z <= range.z1; ++z)
+            for (uint y = range.y0; y <= range.y1; ++y)
+                estimate = gather_run(row_run(&grid, cell_ends + cell_ends_offset, &range, y, z), &query, &lobe, streams, grid.stride, estimate);
+#else
+        PhotonRun runs[8];
+        const uint run_count = find_photon_runs(&grid, cell_ends + cell_ends_offset, position, runs);
         for (uint i = 0u; i < run_count; ++i) estimate = gather_run(runs[i], &query, &lobe, streams, grid.stride, estimate);
+#endif
         sum = estimator_end(&estimate, query.radius);
     }
     sums[index] = sum;

@@ -4,10 +4,10 @@
 // never find, light from points and directions by way of specular surfaces, it asks for there with probability
 // `narrow_query_share`. Emission met on the way is added to radiance: nothing else finds it. One work-item an
 // active path. Used by pppm and sppm.
+#include "density/photon_query.h"
 #include "scene/camera_rays.h"
 #include "scene/continue_path.h"
 #include "scene/direct_light.h"
-#include "shared/photon.h"
 
 // With which probability a narrow lobe's path took the way it takes; 1 where it has no choice.
 typedef struct Continuation {
@@ -22,22 +22,6 @@ static inline Continuation choose_continuation(const Scattering* scattering, flo
     continuation.asks = next_4d(sampler).x < narrow_query_share;
     continuation.probability = continuation.asks ? narrow_query_share : 1.0f - narrow_query_share;
     return continuation;
-}
-
-static inline GatherQuery make_query(const Surface* surface, const Scattering* scattering, float3 throughput, uint max_photon_depth, float radius)
-{
-    GatherQuery query;
-    query.position = pack(surface->position);
-    query.radius = radius;
-    query.flags = 0u;
-    if (scattering->lobe == LOBE_DIFFUSE && !(scattering->flags & LOBE_PERTURBED)) throughput *= evaluate_diffuse(scattering);
-    else query.flags |= QUERY_EVALUATES_LOBE;
-    if (is_transmissive(scattering)) query.flags |= QUERY_BOTH_SIDES;
-    if (is_narrow(scattering)) query.flags |= QUERY_UNREACHED_ONLY;
-    query.throughput = pack(throughput);
-    query.max_photon_depth = max_photon_depth;
-    query.normal = pack(facing(surface->geometric_normal, surface->outgoing));
-    return query;
 }
 
 __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, uint width, uint height, float radius,
@@ -85,8 +69,7 @@ __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rul
 #endif
     const Continuation continuation = choose_continuation(&scattering, narrow_query_share, &sampler);
     if (continuation.asks) {
-        const uint max_photon_depth = rules.max_depth == UNBOUNDED_DEPTH ? UNBOUNDED_DEPTH : rules.max_depth - path.depth;
-        const GatherQuery query = make_query(&surface, &scattering, throughput / continuation.probability, max_photon_depth, radius);
+        const GatherQuery query = make_query(&surface, &scattering, throughput / continuation.probability, edges_left(rules, &path), radius);
         if (query.flags & QUERY_EVALUATES_LOBE) query_lobes[index] = pack_lobe(&scattering, &surface);
         queries[index] = query;
         return;

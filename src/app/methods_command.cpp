@@ -34,6 +34,7 @@ std::string allowed_values(const ParameterSpec& spec)
 {
     switch (spec.type) {
     case ParameterType::boolean: return "true or false";
+    case ParameterType::file: return "file name";
     case ParameterType::choice: return fmt::format("{}", fmt::join(spec.choices, ", "));
     case ParameterType::integer:
     case ParameterType::real: break;

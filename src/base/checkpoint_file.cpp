@@ -70,10 +70,10 @@ void CheckpointWriter::commit()
     file_.commit();
 }
 
-CheckpointReader::CheckpointReader(const std::filesystem::path& file) : path_(file)
+CheckpointReader::CheckpointReader(const std::filesystem::path& file, FileUse use) : path_(file), use_(std::move(use))
 {
     std::error_code error;
-    if (!std::filesystem::exists(file, error)) throw FileError(file.string() + ": cannot resume, there is no such file");
+    if (!std::filesystem::exists(file, error)) throw FileError(fmt::format("{}: {}, there is no such file", file.string(), use_.failure));
     if (!std::filesystem::is_regular_file(file, error)) refuse("is not a file");
     file_.open(file, std::ios::binary);
     if (!file_) throw FileError(file.string() + ": cannot read; check its permissions");
@@ -81,9 +81,9 @@ CheckpointReader::CheckpointReader(const std::filesystem::path& file) : path_(fi
 
     std::string start(magic.size(), '\0');
     std::uint32_t layout = 0, mark = 0;
-    if (left_ < start.size() + sizeof layout + sizeof mark) refuse("is too short for a checkpoint");
+    if (left_ < start.size() + sizeof layout + sizeof mark) refuse("is too short for a " + use_.kind);
     take(start.data(), start.size());
-    if (start != magic) refuse("is not a checkpoint of sundog");
+    if (start != magic) refuse(fmt::format("is not a {} of sundog", use_.kind));
     take(&layout, sizeof layout);
     take(&mark, sizeof mark);
     if (mark != byte_order_mark) refuse("is from a machine of another byte order, or damaged");
@@ -92,7 +92,7 @@ CheckpointReader::CheckpointReader(const std::filesystem::path& file) : path_(fi
 
 void CheckpointReader::refuse(const std::string& why) const
 {
-    throw FileError(fmt::format("{}: cannot resume, the file {}; render afresh without --resume", path_.string(), why));
+    throw FileError(fmt::format("{}: {}, the file {}; {}", path_.string(), use_.failure, why, use_.cure));
 }
 
 void CheckpointReader::take(void* target, std::uint64_t bytes)

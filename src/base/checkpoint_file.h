@@ -1,4 +1,4 @@
-// The file that a render is continued from. Layout, all numbers as the machine writes them (little endian):
+// The file that a render is continued from; photon maps are saved in the same layout. Layout, all numbers as the machine writes them (little endian):
 //
 //   8 bytes   "\x89SUNDOG\n"
 //   uint32    version of this layout, checkpoint_layout
@@ -25,6 +25,13 @@ namespace sundog {
 
 constexpr std::uint32_t checkpoint_layout = 1;
 
+// How messages speak of a file that cannot be read.
+struct FileUse {
+    std::string kind = "checkpoint";
+    std::string failure = "cannot resume";
+    std::string cure = "render afresh without --resume";
+};
+
 // Writes beside FILE; only commit() puts it there. Throws FileError.
 class CheckpointWriter final : public StateArchive {
 public:
@@ -45,20 +52,22 @@ private:
 // written. Data is given out only after its hash was found to be right.
 class CheckpointReader final : public StateArchive {
 public:
-    explicit CheckpointReader(const std::filesystem::path& file);
+    explicit CheckpointReader(const std::filesystem::path& file, FileUse use = {});
 
     bool loading() const override { return true; }
     void bytes(std::string_view name, std::span<std::byte> data) override;
     std::string text(std::string_view name);
     void finish(); // the archive ends here
 
+    [[noreturn]] void refuse(const std::string& why) const; // the file, for a reason that its reader found
+
 private:
     std::uint64_t begin_section(std::string_view name);
     void end_section(std::string_view name, std::string_view data);
     void take(void* target, std::uint64_t bytes);
-    [[noreturn]] void refuse(const std::string& why) const;
 
     std::filesystem::path path_;
+    FileUse use_;
     std::ifstream file_;
     std::uint64_t left_ = 0; // bytes of the file not yet read
 };

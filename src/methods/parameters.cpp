@@ -67,6 +67,7 @@ std::string allowed(const ParameterSpec& spec)
     case ParameterType::real: return "a number" + range_text(spec);
     case ParameterType::boolean: return "true or false";
     case ParameterType::choice: return "one of " + joined(spec.choices);
+    case ParameterType::file: return "a file name";
     }
     return {};
 }
@@ -82,6 +83,7 @@ std::optional<std::string> canonical(const ParameterSpec& spec, const std::strin
     case ParameterType::real:
         if (const auto value = parse_number<double>(text); value && std::isfinite(*value) && in_range(spec, *value)) return fmt::format("{}", *value);
         return std::nullopt;
+    case ParameterType::file: return text;
     case ParameterType::boolean:
         if (text == "true" || text == "false") return text;
         return std::nullopt;
@@ -92,7 +94,7 @@ std::optional<std::string> canonical(const ParameterSpec& spec, const std::strin
     return std::nullopt;
 }
 
-[[noreturn]] void refuse(const SourceLocation& where, const std::string& message)
+[[noreturn]] void refuse_at(const SourceLocation& where, const std::string& message)
 {
     if (where.file.empty()) throw UsageError(message);
     throw SceneError(where, message);
@@ -104,18 +106,18 @@ Parameters::Parameters(const std::string& method, const std::vector<ParameterSpe
 {
     for (const ParameterSpec& spec : specs) {
         const auto given = values.find(spec.name);
-        set_[spec.name] = given != values.end();
+        set_[spec.name] = given != values.end() ? std::optional(given->second.where) : std::nullopt;
         const auto value = canonical(spec, given != values.end() ? given->second.text : spec.default_value);
         if (!value && given == values.end()) throw std::logic_error("default of " + method + "'s " + spec.name + " is not " + allowed(spec));
         if (!value)
-            refuse(given->second.where, fmt::format("parameter {} of {} must be {}, got \"{}\"", spec.name, method, allowed(spec), given->second.text));
+            refuse_at(given->second.where, fmt::format("parameter {} of {} must be {}, got \"{}\"", spec.name, method, allowed(spec), given->second.text));
         values_.emplace_back(spec.name, *value);
     }
     for (const auto& [name, value] : values) {
         if (set_.contains(name)) continue;
         std::vector<std::string> known;
         for (const ParameterSpec& spec : specs) known.push_back(spec.name);
-        refuse(value.where, fmt::format("{} has no parameter \"{}\"; it has {}", method, name, known.empty() ? "none" : joined(known)));
+        refuse_at(value.where, fmt::format("{} has no parameter \"{}\"; it has {}", method, name, known.empty() ? "none" : joined(known)));
     }
 }
 
@@ -155,7 +157,12 @@ bool Parameters::has(const std::string& name) const
 bool Parameters::is_set(const std::string& name) const
 {
     const auto found = set_.find(name);
-    return found != set_.end() && found->second;
+    return found != set_.end() && found->second.has_value();
+}
+
+void Parameters::refuse(const std::string& name, const std::string& message) const
+{
+    refuse_at(set_.at(name).value_or(SourceLocation{}), message);
 }
 
 std::vector<std::pair<std::string, std::string>> Parameters::all() const { return values_; }

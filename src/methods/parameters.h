@@ -5,12 +5,13 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace sundog {
 
-enum class ParameterType { integer, real, boolean, choice };
+enum class ParameterType { integer, real, boolean, choice, file };
 
 // One parameter as `sundog methods NAME` prints it.
 struct ParameterSpec {
@@ -45,12 +46,15 @@ public:
     bool has(const std::string& name) const; // whether the method has a parameter of this name
     bool is_set(const std::string& name) const; // by the user, rather than by default
 
+    // Throws what a wrong value of this parameter throws, where it was set: for values that do not go together.
+    [[noreturn]] void refuse(const std::string& name, const std::string& message) const;
+
     // Every parameter with the value in force, in the order of the specs.
     std::vector<std::pair<std::string, std::string>> all() const;
 
 private:
     std::vector<std::pair<std::string, std::string>> values_;
-    std::map<std::string, bool> set_;
+    std::map<std::string, std::optional<SourceLocation>> set_; // where the user set it, if so
 };
 
 } // namespace sundog

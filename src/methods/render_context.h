@@ -5,6 +5,9 @@
 #include "stages/camera_paths.h"
 #include "stages/spectral_transport.h"
 
+#include <functional>
+#include <string>
+
 namespace sundog {
 
 struct RenderContext {
@@ -15,6 +18,7 @@ struct RenderContext {
     DeviceFilm& film;
     const SpectralTransport& spectral; // its pass begins before the method's
     std::uint64_t seed;
+    std::function<std::string()> light_fingerprint; // of the scene without its camera (scene/fingerprint.h); takes a while
 };
 
 } // namespace sundog

@@ -76,6 +76,15 @@ ParameterSpec kernel_spec()
             {"uniform", "epanechnikov", "biweight", "triweight"}};
 }
 
+ParameterSpec filter_kernel_spec()
+{
+    ParameterSpec spec = kernel_spec();
+    spec.choices.insert(spec.choices.end(), {"cone", "gaussian"});
+    spec.description = "Smoothing kernel of the density estimate (Silverman 1986), or a filter of photon maps (Jensen 1996): the cone with c = 1.1, "
+                       "or the Gaussian with the factor that keeps energy.";
+    return spec;
+}
+
 ParameterSpec spectral_spec()
 {
     return {"spectral", ParameterType::boolean, "false", "",
@@ -107,7 +116,7 @@ bool is_spectral(const Parameters& parameters)
 
 int density_kernel(const Parameters& parameters)
 {
-    const std::vector<std::string> names = kernel_spec().choices;
+    const std::vector<std::string> names = filter_kernel_spec().choices; // in the order of DENSITY_KERNEL
     for (std::size_t n = 0; n < names.size(); n++)
         if (names[n] == parameters.text("kernel")) return static_cast<int>(n);
     return 0;

@@ -20,6 +20,7 @@ ParameterSpec alpha_spec();
 ParameterSpec direct_spec();
 ParameterSpec light_choice_spec();
 ParameterSpec kernel_spec();
+ParameterSpec filter_kernel_spec(); // with the filters of photon maps, for methods that need not know a kernel's moments
 ParameterSpec spectral_spec();
 
 PathRules path_rules(const Parameters& parameters); // of max_depth and rr_depth

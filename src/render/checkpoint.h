@@ -13,7 +13,7 @@ namespace sundog {
 struct RenderIdentity {
     std::string version; // of sundog
     std::string method;
-    std::vector<std::pair<std::string, std::string>> parameters; // but not `iterations`, which is a goal
+    std::vector<std::pair<std::string, std::string>> parameters; // but not `iterations`, which is a goal, nor `save_map`, an output
     std::uint64_t seed = 0;
     int width = 0; // pixels of the image
     int height = 0;

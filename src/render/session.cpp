@@ -31,7 +31,7 @@ const MethodInfo& choose_method(const Scene& scene, const RenderSettings& settin
     const std::string name = from_scene ? scene.integrator.method : settings.method.empty() ? default_method : settings.method;
     if (const MethodInfo* info = find_method(name)) {
         if (scene.moves() && !info->follows_motion)
-            throw SceneError(scene.sensor.where, fmt::format("{} cannot render what moves: it finds the points that the camera sees once; choose sppm (-m sppm), "
+            throw SceneError(scene.sensor.where, fmt::format("{} cannot render what moves: what it computes before the first pass would have to stay; choose sppm (-m sppm), "
                                                              "or give shutter_close the value of shutter_open",
                                                              name));
         return *info;
@@ -120,7 +120,7 @@ struct RenderSession::State {
           device_scene(device, scene, is_spectral(parameters), light_selection(parameters)), camera(make_camera(scene.sensor, scene.film)),
           filter(make_pixel_filter(scene.film.filter)), film(make_film(device, scene.film, info, settings)),
           motion(device_scene, scene, camera, seed),
-          spectral(device, device_scene, seed), context{device, device_scene, camera, filter, film, spectral, seed},
+          spectral(device, device_scene, seed), context{device, device_scene, camera, filter, film, spectral, seed, [this] { return light_fingerprint(flatten_scene(scene)); }},
           method(info.create(context, parameters))
     {
         if (scene.has_dispersion() && !device_scene.is_spectral())
@@ -169,7 +169,7 @@ RenderIdentity RenderSession::State::identity()
     // Of the camera where the shutter opens, wherever it is now.
     if (!scene_fingerprint) scene_fingerprint = fingerprint(flatten_scene(scene), make_camera(scene.sensor, scene.film), filter);
     auto values = parameters.all();
-    std::erase_if(values, [](const auto& parameter) { return parameter.first == "iterations"; });
+    std::erase_if(values, [](const auto& parameter) { return parameter.first == "iterations" || parameter.first == "save_map"; });
     return {SUNDOG_VERSION, info.name, std::move(values), seed, scene.film.crop_width, scene.film.crop_height, scene.file, *scene_fingerprint, film.errors.has_value()};
 }
 

@@ -19,11 +19,8 @@ void append(Hash& hash, const AnimatedTransform& motion)
     append(hash, std::span<const TransformKey>(keys));
 }
 
-} // namespace
-
-std::string fingerprint(const FlatScene& scene, const Camera& camera, const PixelFilter& filter)
+void append(Hash& hash, const FlatScene& scene)
 {
-    Hash hash;
     append(hash, std::span<const AnalyticPrimitive>(scene.analytics));
 #define APPEND(type, name) append(hash, std::span<const type>(scene.name));
     SURFACE_ARRAYS(APPEND)
@@ -41,6 +38,21 @@ std::string fingerprint(const FlatScene& scene, const Camera& camera, const Pixe
         append(hash, motion.to_world);
     }
     append(hash, std::span(&scene.globals, 1));
+}
+
+} // namespace
+
+std::string light_fingerprint(const FlatScene& scene)
+{
+    Hash hash;
+    append(hash, scene);
+    return hash.hex();
+}
+
+std::string fingerprint(const FlatScene& scene, const Camera& camera, const PixelFilter& filter)
+{
+    Hash hash;
+    append(hash, scene);
     append(hash, std::span(&camera, 1));
     append(hash, std::span(&filter, 1));
     return hash.hex();

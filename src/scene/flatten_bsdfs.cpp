@@ -279,6 +279,12 @@ uint lobe_types(std::span<const Bsdf> bsdfs)
     return lobes;
 }
 
+bool has_focusing_lobes(std::span<const Bsdf> bsdfs)
+{
+    constexpr uint broad = bit(LOBE_DIFFUSE) | bit(LOBE_COATED_DIFFUSE) | bit(LOBE_PRINCIPLED_DIFFUSE);
+    return (lobe_types(bsdfs) & ~broad) != 0;
+}
+
 bool has_lobes_to_evaluate(std::span<const Bsdf> bsdfs)
 {
     constexpr uint evaluated = bit(LOBE_ROUGH_CONDUCTOR) | bit(LOBE_ROUGH_DIELECTRIC) | bit(LOBE_COATED_DIFFUSE) |

@@ -27,6 +27,9 @@ uint bsdf_types(std::span<const Bsdf> bsdfs);
 // The same for lobes.
 uint lobe_types(std::span<const Bsdf> bsdfs);
 
+// Whether light may be focused: some lobe is not as broad as a diffuse one.
+bool has_focusing_lobes(std::span<const Bsdf> bsdfs);
+
 // Whether a query may meet a lobe whose value depends on where a photon comes from.
 bool has_lobes_to_evaluate(std::span<const Bsdf> bsdfs);
 

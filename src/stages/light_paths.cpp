@@ -9,6 +9,7 @@ PhotonTracer::PhotonTracer(Device& device, const DeviceScene& scene, const Photo
     use_sampler(options, settings.sampler);
     emit_light_paths_ = Kernel(device, "emit_light_paths", "Emit light paths", options);
     options.defines.emplace_back("DIRECT_LIGHT", settings.direct_light_elsewhere ? "1" : "0");
+    options.defines.emplace_back("PHOTONS_KEPT", std::to_string(static_cast<int>(settings.kept)));
     shade_photon_path_ = Kernel(device, "shade_photon_path", "Shade photon paths", options);
 }
 

@@ -7,11 +7,19 @@
 
 namespace sundog {
 
+// Which of a path's photons stay.
+enum class PhotonsKept {
+    all = PHOTONS_ALL,
+    caustic = PHOTONS_CAUSTIC,     // light focused by specular and narrow lobes alone, or straight from its source
+    scattered = PHOTONS_SCATTERED, // the others
+};
+
 struct PhotonTracerSettings {
     std::size_t paths = 0; // light subpaths an iteration
     PathRules rules{};
     bool direct_light_elsewhere = false; // leave out photons straight from a light
     SamplerKind sampler = SamplerKind::sobol;
+    PhotonsKept kept = PhotonsKept::all;
 };
 
 class PhotonTracer {

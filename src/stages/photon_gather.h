@@ -11,14 +11,17 @@ namespace sundog {
 // Result: what the estimator's estimator_end returns.
 template <class Result = GatherSum> class PhotonGather {
 public:
-    // estimator: an embedded header, such as "estimators/radiance_estimate.h"; density_kernel: n of (1 - t^2)^n;
-    // lobes: the scene's surface options where it has lobes to evaluate.
-    PhotonGather(Device& device, std::size_t capacity, std::string estimator, int density_kernel, const std::optional<BuildOptions>& lobes = {})
+    // estimator: an embedded header, such as "estimators/radiance_estimate.h"; density_kernel: as DENSITY_KERNEL;
+    // lobes: the scene's surface options where it has lobes to evaluate; wide_queries: of any radius, from maps built by
+    // build_dense().
+    PhotonGather(Device& device, std::size_t capacity, std::string estimator, int density_kernel, const std::optional<BuildOptions>& lobes = {},
+                 bool wide_queries = false)
         : sums(device, capacity, "gathered sums")
     {
         BuildOptions options = lobes.value_or(BuildOptions{});
         options.defines.emplace_back("GATHERS_LOBES", lobes ? "1" : "0");
         options.defines.emplace_back("DENSITY_KERNEL", std::to_string(density_kernel));
+        if (wide_queries) options.defines.emplace_back("WIDE_QUERIES", "1");
         options.prelude.push_back(std::move(estimator));
         gather_photons_ = Kernel(device, "gather_photons", "Gather photons", options);
     }

@@ -41,6 +41,13 @@ PhotonGrid make_photon_grid(const Bounds& bounds, float largest_radius, uint tab
     return grid;
 }
 
+float dense_grid_radius(const Bounds& bounds, float radius, uint table_size)
+{
+    radius = std::max(radius, max_component(bounds.extent()) / (1 << 20));
+    while (make_photon_grid(bounds, radius, table_size, 0).hashed) radius *= 1.05f;
+    return radius;
+}
+
 PhotonMap::PhotonMap(Device& device, const Bounds& bounds)
     : device_(&device), bounds_(bounds), photon_cell_keys_(device, "photon_cell_keys", "Find photon cells"),
       scatter_photons_(device, "scatter_photons", "Sort photons"),
@@ -64,6 +71,19 @@ void PhotonMap::build(const RecordList<Photon>& photons, std::size_t count, floa
 {
     reserve(photons.capacity());
     grid_ = make_photon_grid(bounds_, largest_radius, table_size_, static_cast<uint>(stream_stride(photons.capacity())));
+    fill(photons, count);
+}
+
+void PhotonMap::build_dense(const RecordList<Photon>& photons, std::size_t count, float usual_radius)
+{
+    reserve(photons.capacity());
+    const float radius = dense_grid_radius(bounds_, usual_radius, table_size_);
+    grid_ = make_photon_grid(bounds_, radius, table_size_, static_cast<uint>(stream_stride(photons.capacity())));
+    fill(photons, count);
+}
+
+void PhotonMap::fill(const RecordList<Photon>& photons, std::size_t count)
+{
     photon_cell_keys_(count, grid_, photons.records(), photons.count(), sort_->keys);
     sort_and_lay_out(photons, count);
 }

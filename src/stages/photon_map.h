@@ -19,6 +19,10 @@ public:
     // as the host knows it.
     void build(const RecordList<Photon>& photons, std::size_t count, float largest_radius);
 
+    // The same for queries of any radius, `usual_radius` being what most have: the grid is dense, at the price of wider cells
+    // in a large scene.
+    void build_dense(const RecordList<Photon>& photons, std::size_t count, float usual_radius);
+
     const PhotonGrid& grid() const { return grid_; }
     const Buffer<uint>& cell_ends() const { return sort_->ends(); }
     uint cell_ends_offset() const { return sort_->ends_offset(); }
@@ -26,6 +30,7 @@ public:
 
 private:
     void reserve(std::size_t photons);
+    void fill(const RecordList<Photon>& photons, std::size_t count);
     void sort_and_lay_out(const RecordList<Photon>& photons, std::size_t count);
 
     Device* device_;
@@ -39,6 +44,9 @@ private:
     uint table_size_ = 0;
     PhotonGrid grid_{};
 };
+
+// The smallest radius of at least `radius` whose cells fit the table, so that its grid is dense. Pure, for tests.
+float dense_grid_radius(const Bounds& bounds, float radius, uint table_size);
 
 // The grid for a radius: dense when its cells fit the table, else rows hashed into it. Pure, for tests.
 PhotonGrid make_photon_grid(const Bounds& bounds, float largest_radius, uint table_size, uint stride);

@@ -14,7 +14,7 @@ using namespace sundog::test;
 namespace {
 
 constexpr int replicates = 10;
-constexpr int tests_in_file = 47; // bounds the family for the Bonferroni correction below
+constexpr int tests_in_file = 64; // bounds the family for the Bonferroni correction below
 
 // The number after "answer:" in the scene's comment.
 double answer_of(const std::string& scene)
@@ -43,7 +43,8 @@ std::string name_of(const testing::TestParamInfo<Case>& info)
 {
     std::string name = info.param.scene + "_" + info.param.method;
     for (const auto& [key, value] : info.param.parameters)
-        if (key == "direct" || key == "kernel" || key == "sampler") name += "_" + value;
+        if (key == "direct" || key == "kernel" || key == "sampler" || key == "lookup") name += "_" + value;
+        else if (key == "final_gather") name += "_final_gather_" + value;
     for (char& c : name)
         if (c == '-') c = '_';
     return name;
@@ -104,6 +105,21 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"parallel-light", "cppm", {{"radius", "0.2"}, {"direct", "photons"}, {"photons", "32768"}}}),
     name_of);
 
+// The map is traced once for all iterations; light straight from its source is in the caustic map if it is in any.
+INSTANTIATE_TEST_SUITE_P(
+    FixedMaps, AnalyticScenes,
+    testing::Values(
+        // Gather rays find light once reflected, a quarter of all, dimmed along the edges as agreement_test.cpp derives.
+        Case{"furnace", "photonmapper", {{"radius", "0.02"}}, 0.25 * 2 * 0.02 * 0.21},
+        Case{"sphere-furnace", "photonmapper", {{"radius", "0.1"}}, 3e-4},
+        Case{"sphere-furnace", "photonmapper", {{"radius", "0.1"}, {"final_gather", "false"}, {"photons", "65536"}}, 3e-4},
+        Case{"parallel-light", "photonmapper", {}}, Case{"point-over-plane", "photonmapper", {}}, Case{"sphere-light", "photonmapper", {}},
+        Case{"glass-in-white", "photonmapper", {}},
+        Case{"parallel-light", "photonmapper", {{"caustic_radius", "0.2"}, {"direct", "photons"}, {"caustic_photons", "400000"}}},
+        // The mean of 1 / area, and so of the sum over the k - 1 nearest.
+        Case{"parallel-light", "photonmapper", {{"lookup", "nearest"}, {"nearest", "20"}, {"direct", "photons"}, {"caustic_photons", "800000"}}}),
+    name_of);
+
 INSTANTIATE_TEST_SUITE_P(
     BlurredLight, AnalyticScenes,
     testing::Values(
@@ -116,7 +132,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"point-over-plane", "appm", {{"radius", "0.05"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.05, 1.0 / 6, 1)},
         Case{"point-over-plane", "cppm", {{"radius", "0.05"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.05, 1.0 / 4, 1)},
         Case{"sphere-light", "pppm", {{"radius", "0.08"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.08, 1.0 / 6, 2)},
-        Case{"sphere-light", "sppm", {{"radius", "0.08"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.08, 1.0 / 4, 2)}),
+        Case{"sphere-light", "sppm", {{"radius", "0.08"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.08, 1.0 / 4, 2)},
+        Case{"point-over-plane", "photonmapper", {{"caustic_radius", "0.05"}, {"direct", "photons"}, {"kernel", "cone"}, {"caustic_photons", "1e6"}}, blur(0.05, 0.1731, 1)},
+        Case{"point-over-plane", "photonmapper", {{"caustic_radius", "0.05"}, {"direct", "photons"}, {"kernel", "gaussian"}, {"caustic_photons", "1e6"}}, blur(0.05, 0.1985, 1)}),
     name_of);
 
 // A bound on the path's edges cuts the furnace's series: L_e (1 - rho^D) / (1 - rho).

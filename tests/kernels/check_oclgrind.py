@@ -25,7 +25,7 @@ SMALL_TESTS = [
     "-ProgressiveStage.FollowsTheRecurrence",
 ]
 
-METHODS = ["path", "ptracer", "pppm", "sppm"]
+METHODS = ["path", "ptracer", "pppm", "sppm", "photonmapper"]
 
 # A diffuse floor, a glass and a metal ball, every kind of area light and a point light.
 SCENE = """<scene version="3.0.0">

@@ -253,6 +253,20 @@ protected:
         expect_near("radiance", path, got_radiance_[path], Vec3d(radiance_before) + added, colour_error * length(added) + rounded);
     }
 
+    // beta rho / pi at the surface, for photons that arrive on the side seen and leave enough edges for the way to the camera.
+    void expect_query(uint path, const PlainVertex& vertex, const PlainOutcome& expected, const GatherQuery& query, float radius) const
+    {
+        ASSERT_EQ(query.radius, expected.leaves_record ? radius : 0.0f) << "path " << path;
+        if (!expected.leaves_record) return;
+        expect_near("query position", path, query.position, expected.surface->position, point_error);
+        expect_near("query normal", path, query.normal, expected.surface->normal_seen(), direction_error);
+        const Vec3d reflectance = expected.side->as<DiffuseBsdf>()->reflectance.value;
+        expect_colour("query throughput", path, query.throughput, Vec3d(vertex.path.throughput) * reflectance / pi);
+        const uint edges_left = is_bounded(rules()) ? rules().max_depth - vertex.path.depth : UNBOUNDED_DEPTH;
+        EXPECT_EQ(query.max_photon_depth, edges_left) << "path " << path;
+        EXPECT_EQ(query.flags, 0u) << "path " << path;
+    }
+
     PlainNumbers camera_numbers(uint path) const
     {
         const auto [x, y] = pixels_.at(path);

@@ -1,4 +1,5 @@
-// shade_photon_path against plain C++, vertex by vertex along real light paths, with photons straight from lights and without.
+// shade_photon_path against plain C++, vertex by vertex along real light paths, with photons straight from lights and without,
+// and for each choice of photons.
 #include "kernels/shading_fixture.h"
 #include "support/photon_cloud.h"
 
@@ -11,7 +12,7 @@ class ShadePhotonPath : public ShadingStage
 {
 protected:
     // As if the paths had had so many edges before they set out.
-    void follow(bool direct_light, uint edges_before = 0)
+    void follow(bool direct_light, uint edges_before = 0, int kept = PHOTONS_ALL)
     {
         start_light_paths();
         auto states = paths_.download();
@@ -21,6 +22,7 @@ protected:
         std::vector<Photon> got;
         BuildOptions options = options_;
         options.defines.emplace_back("DIRECT_LIGHT", direct_light ? "1" : "0");
+        options.defines.emplace_back("PHOTONS_KEPT", std::to_string(kept));
         const Kernel shade(device_, "shade_photon_path", "Shade", options);
         follow_paths(
             [&](std::size_t items) {
@@ -30,14 +32,19 @@ protected:
             },
             [&](std::size_t item, uint path, const PlainVertex& vertex) {
                 Doubt doubt;
-                const PlainOutcome expected = plain_photon_vertex(plain_, vertex, rules(), direct_light, light_numbers(path), doubt);
+                const PlainOutcome expected = plain_photon_vertex(plain_, vertex, rules(), direct_light, light_numbers(path), doubt, kept);
                 if (!is_certain(vertex, expected, doubt)) return;
                 expect_step(item, path, expected.next, expected.leaves_record);
                 if (expected.leaves_record) expect_photon(path, vertex, expected, got[item]);
+                if (expected.next && kept != PHOTONS_ALL) {
+                    const uint before = vertex.path.flags & PATH_SCATTERED_BROADLY;
+                    const uint here = expected.side->specular() ? 0 : PATH_SCATTERED_BROADLY;
+                    EXPECT_EQ(next_paths_[path].flags & PATH_SCATTERED_BROADLY, before | here) << "path " << path;
+                }
             });
         expect_few_in_doubt();
         if (GetParam().complete) expect_seen({"records"});
-        expect_all_surfaces_seen();
+        if (kept != PHOTONS_CAUSTIC) expect_all_surfaces_seen(); // its paths are short
     }
 
     // Directions and normals are packed, with the errors that frame.h promises.
@@ -70,6 +77,16 @@ TEST_P(ShadePhotonPath, WithoutDirectLightDoesAsPlainCode)
 TEST_P(ShadePhotonPath, LongPathsDoAsPlainCode)
 {
     follow(true, 124);
+}
+
+TEST_P(ShadePhotonPath, CausticPhotonsAreAsInPlainCode)
+{
+    follow(true, 0, PHOTONS_CAUSTIC);
+}
+
+TEST_P(ShadePhotonPath, ScatteredPhotonsAreAsInPlainCode)
+{
+    follow(false, 0, PHOTONS_SCATTERED);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rules, ShadePhotonPath, testing::ValuesIn(shading_cases()), case_name);

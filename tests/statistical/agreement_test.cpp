@@ -66,6 +66,7 @@ RenderRequest request(const std::string& method, std::uint64_t iterations, const
     RenderRequest r{method, iterations, {{"sampler", "independent"}, {"max_depth", "6"}}};
     if (method != "path") r.parameters["photons"] = "16384";
     if (uses_photons(r)) r.parameters["radius"] = "0.01";
+    if (method == "photonmapper") r.parameters["caustic_radius"] = "0.01";
     if (!extra.empty()) r.parameters[extra] = value;
     return r;
 }
@@ -78,7 +79,8 @@ constexpr double edge_bias = 0.005;
 TEST(Agreement, DiffuseBox)
 {
     expect_agreement(cornell_box(size),
-                     {request("path", 64), request("ptracer", 16), request("pppm", 16), request("sppm", 16), request("pppm", 16, "direct", "photons"), request("appm", 16)}, edge_bias);
+                     {request("path", 64), request("ptracer", 16), request("pppm", 16), request("sppm", 16), request("pppm", 16, "direct", "photons"), request("appm", 16),
+                      request("photonmapper", 16), request("photonmapper", 16, "final_gather", "false")}, edge_bias);
 }
 
 TEST(Agreement, GlassAndMirrorSpheres)
@@ -89,7 +91,8 @@ TEST(Agreement, GlassAndMirrorSpheres)
     const uint mirror = add_bsdf(scene, ConductorBsdf{});
     scene.shapes.push_back(make_sphere({.45f, -.6f, .3f}, .4f, glass));
     scene.shapes.push_back(make_sphere({-.45f, -.6f, -.3f}, .4f, mirror));
-    expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24), request("cppm", 24), request("ppm", 24)}, edge_bias);
+    expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24), request("cppm", 24), request("ppm", 24), request("photonmapper", 24),
+                             request("photonmapper", 24, "direct", "photons"), request("photonmapper", 24, "relaxation", "5")}, edge_bias);
 }
 
 AnimatedTransform between(const Transform& from, const Transform& to)
@@ -151,7 +154,8 @@ TEST(Agreement, RoughMetals)
     const uint narrow = add_bsdf(scene, ConductorBsdf{eta, k, {}, Roughness{true, 0.1f, 0.1f}});
     scene.shapes.push_back(make_sphere({.45f, -.6f, .3f}, .4f, broad));
     scene.shapes.push_back(make_sphere({-.45f, -.6f, -.3f}, .4f, narrow));
-    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("pppm", 48, "direct", "photons")},
+    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("pppm", 48, "direct", "photons"),
+                             request("photonmapper", 48)},
                      edge_bias);
 }
 
@@ -160,7 +164,7 @@ TEST(Agreement, GroundGlass)
     Scene scene = cornell_box(size);
     const uint glass = add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {}, {}, Roughness{false, 0.5f, 0.5f}});
     scene.shapes.push_back(make_sphere({0, -.5f, .2f}, .45f, glass));
-    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48)}, edge_bias);
+    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("photonmapper", 48)}, edge_bias);
 }
 
 // A point light, by way of a mirror in front of the box that the camera does not see, on narrow metal: neither can the
@@ -174,7 +178,7 @@ TEST(Agreement, MirroredPointLightOnNarrowMetal)
     const uint narrow = add_bsdf(scene, ConductorBsdf{{0.2f, 0.9f, 1.1f}, {3.9f, 2.5f, 2.1f}, {}, Roughness{false, 0.12f, 0.12f}});
     scene.shapes.push_back(make_quad({-1, -1, 1.2f}, {-1, -1, 3}, {1, -1, 3}, {1, -1, 1.2f}, mirror));
     scene.shapes.push_back(make_sphere({0, -.35f, .2f}, .6f, narrow));
-    expect_agreement(scene, {request("ptracer", 96), request("pppm", 64), request("sppm", 64), request("pppm", 64, "direct", "photons")}, edge_bias);
+    expect_agreement(scene, {request("ptracer", 96), request("pppm", 64), request("sppm", 64), request("pppm", 64, "direct", "photons"), request("photonmapper", 64)}, edge_bias);
 }
 
 // The two lobes of plastic, and the parts of a mask and a blend, are chosen anew by each path.
@@ -200,7 +204,7 @@ TEST(Agreement, RoughPlasticMaskAndBlend)
 TEST(Agreement, SmoothPlasticMaskAndBlend)
 {
     const Scene scene = plastic_spheres(PlasticBsdf{1.5f, 1.0f, {.6f, .3f, .1f}, {1, 1, 1}, true});
-    expect_agreement(scene, {request("path", 256), request("pppm", 48), request("sppm", 48)}, edge_bias);
+    expect_agreement(scene, {request("path", 256), request("pppm", 48), request("sppm", 48), request("photonmapper", 48, "final_gather", "false")}, edge_bias);
 }
 
 // Each part of the principled BSDF somewhere: cloth under a coat, brushed metal, tinted ground glass.
@@ -224,7 +228,7 @@ TEST(Agreement, Principled)
     scene.shapes.push_back(make_sphere({.5f, -.65f, .3f}, .33f, add_bsdf(scene, cloth)));
     scene.shapes.push_back(make_sphere({-.4f, .2f, -.3f}, .33f, add_bsdf(scene, metal)));
     scene.shapes.push_back(make_sphere({-.3f, -.6f, .2f}, .38f, add_bsdf(scene, glass)));
-    expect_agreement(scene, {request("path", 96), request("ptracer", 16), request("pppm", 16)}, edge_bias);
+    expect_agreement(scene, {request("path", 96), request("ptracer", 16), request("pppm", 16), request("photonmapper", 16)}, edge_bias);
 }
 
 // A lobe that is asked for photons, and one that is followed.
@@ -303,7 +307,7 @@ TEST(Agreement, EveryEmitter)
     scene.emitters.push_back({{}, SpotEmitter{{.3f, .5f, .3f}, {0, -1, 0}, {2, 2, 2}, .5f, .3f}});
     scene.emitters.push_back({{}, DirectionalEmitter{normalize(Vec3{.2f, -.3f, -1}), {.5f, .5f, .5f}}});
     scene.emitters.push_back({{}, ConstantEmitter{{.2f, .2f, .2f}}});
-    expect_agreement(scene, {request("path", 128), request("ptracer", 32), request("pppm", 32), request("sppm", 32)}, edge_bias);
+    expect_agreement(scene, {request("path", 128), request("ptracer", 32), request("pppm", 32), request("sppm", 32), request("photonmapper", 32)}, edge_bias);
 }
 
 // The box without ceiling, back wall and lamp, with a ball, under a turned map.

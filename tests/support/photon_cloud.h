@@ -77,7 +77,18 @@ public:
     {
     }
 
-    void build(const std::vector<Photon>& photons, float largest_radius)
+    void build(const std::vector<Photon>& photons, float largest_radius) { map.build(records_, record(photons), largest_radius); }
+
+    void build_dense(const std::vector<Photon>& photons, float usual_radius) { map.build_dense(records_, record(photons), usual_radius); }
+
+    template <class Result> std::vector<Result> gather(PhotonGather<Result>& gather, const std::vector<GatherQuery>& queries)
+    {
+        gather.gather(map, Buffer<GatherQuery>(*device_, queries, "queries"), Buffer<LobeRecord>(*device_, 1, "query lobes"), queries.size());
+        return gather.sums.download(0, queries.size());
+    }
+
+private:
+    std::size_t record(const std::vector<Photon>& photons)
     {
         records_.clear();
         const uint count = static_cast<uint>(photons.size());
@@ -87,16 +98,9 @@ public:
                 counts(*device_, std::vector{count}, "count");
             records_.append(compaction_, deposits, flags, counts, count);
         }
-        map.build(records_, count, largest_radius);
+        return count;
     }
 
-    template <class Result> std::vector<Result> gather(PhotonGather<Result>& gather, const std::vector<GatherQuery>& queries)
-    {
-        gather.gather(map, Buffer<GatherQuery>(*device_, queries, "queries"), Buffer<LobeRecord>(*device_, 1, "query lobes"), queries.size());
-        return gather.sums.download(0, queries.size());
-    }
-
-private:
     Device* device_;
     Compaction compaction_;
     RecordList<Photon> records_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shared/path.h"
+#include "shared/photon.h"
 #include "support/plain_camera.h"
 #include "support/plain_lights.h"
 
@@ -195,9 +196,9 @@ inline double plain_irradiance_scale(const PlainSurface& surface, Doubt& doubt)
     return std::abs(dot(surface.outgoing, surface.shading_normal)) / true_cosine;
 }
 
-// Photon mapping's light path; edges counted by direct light are left to it. A photon has at least one edge more to the
-// camera, and the next one yet another.
-inline PlainOutcome plain_photon_vertex(const PlainScene& scene, const PlainVertex& vertex, const PathRules& rules, bool direct_light,
+// A gather ray's path: a query at the first surface that is not specular, and no emission on the way. The light's path has at
+// least one more edge.
+inline PlainOutcome plain_gather_vertex(const PlainScene& scene, const PlainVertex& vertex, const PathRules& rules,
                                         const PlainNumbers& numbers, Doubt& doubt)
 {
     PlainOutcome outcome;
@@ -205,9 +206,27 @@ inline PlainOutcome plain_photon_vertex(const PlainScene& scene, const PlainVert
     outcome.surface = plain_surface(scene.flat, vertex.ray, vertex.hit, doubt);
     outcome.side = plain_side(scene, *outcome.surface);
     const uint depth = vertex.path.depth;
-    outcome.leaves_record = !outcome.side->specular() && !outcome.side->black() && !(direct_light && depth == 1);
+    outcome.leaves_record = !outcome.side->specular() && !outcome.side->black();
+    if (outcome.side->specular() && allows(rules, depth + 2))
+        outcome.next = plain_camera_step(vertex.path, *outcome.surface, *outcome.side, rules, numbers.scatter(depth, 1), doubt);
+    return outcome;
+}
+
+// Photon mapping's light path; edges counted by direct light are left to it. A photon has at least one edge more to the
+// camera, and the next one yet another. kept: as PHOTONS_KEPT.
+inline PlainOutcome plain_photon_vertex(const PlainScene& scene, const PlainVertex& vertex, const PathRules& rules, bool direct_light,
+                                        const PlainNumbers& numbers, Doubt& doubt, int kept = PHOTONS_ALL)
+{
+    PlainOutcome outcome;
+    if (vertex.missed()) return outcome;
+    outcome.surface = plain_surface(scene.flat, vertex.ray, vertex.hit, doubt);
+    outcome.side = plain_side(scene, *outcome.surface);
+    const uint depth = vertex.path.depth;
+    const bool focused = (vertex.path.flags & PATH_SCATTERED_BROADLY) == 0;
+    const bool asked_for = kept == PHOTONS_ALL || focused == (kept == PHOTONS_CAUSTIC);
+    outcome.leaves_record = !outcome.side->specular() && !outcome.side->black() && !(direct_light && depth == 1) && asked_for;
     if (outcome.leaves_record) outcome.flux = Vec3d(vertex.path.throughput) * plain_irradiance_scale(*outcome.surface, doubt);
-    if (allows(rules, depth + 2))
+    if (allows(rules, depth + 2) && (kept != PHOTONS_CAUSTIC || outcome.side->specular()))
         outcome.next = plain_light_step(vertex.path, *outcome.surface, *outcome.side, rules, numbers.scatter(depth, 1), doubt);
     return outcome;
 }

@@ -1,0 +1,37 @@
+// Which photons count for a query, wherever they lie: those of its side of the surface that make no path too long.
+#ifndef SUNDOG_WANTED_PHOTONS_H
+#define SUNDOG_WANTED_PHOTONS_H
+#include "math/vec3.h"
+#include "shared/photon.h"
+
+// Photons whose normal is further than this from the query's lie on another surface.
+#define MIN_NORMAL_COSINE 0.7f
+
+// Lanes whose packed normal is close to the query's (or, for a lobe that transmits, to its opposite): n . m > c |m| for the
+// unnormalised octahedral m, c being `least`.
+static inline int8 on_same_side(uint8 packed, float3 normal, bool both_sides, float least)
+{
+    float8 x = convert_float8(as_int8(packed & 0xfffu)) * (1.0f / 2048.0f) - (2047.5f / 2048.0f);
+    float8 y = convert_float8(as_int8((packed >> 12) & 0xfffu)) * (1.0f / 2048.0f) - (2047.5f / 2048.0f);
+    const float8 ax = fabs(x), ay = fabs(y);
+    const float8 z = 1.0f - ax - ay;
+    const float8 fold = z < 0.0f ? -z : (float8)(0.0f);
+    x -= copysign(fold, x);
+    y -= copysign(fold, y);
+    const float8 cosine = x * normal.x + y * normal.y + z * normal.z;
+    return ((cosine > 0.0f) | (int8)(both_sides ? -1 : 0)) & (cosine * cosine > (least * least) * (x * x + y * y + z * z));
+}
+
+static inline float8 load_stream(__global const float* streams, uint stream, uint stride, uint i) { return vload8(0, streams + (size_t)stream * stride + i); }
+
+// Lanes that the query asks for, whose photons make no path too long.
+static inline int8 wanted(uint8 normal_depth, const GatherQuery* query)
+{
+    const uint8 max_depth = (uint8)(min(query->max_photon_depth, PHOTON_MAX_DEPTH));
+    int8 mask = on_same_side(normal_depth, unpack(query->normal), (query->flags & QUERY_BOTH_SIDES) != 0u, MIN_NORMAL_COSINE);
+    mask &= as_int8((normal_depth >> PHOTON_DEPTH_SHIFT) <= max_depth);
+    if (query->flags & QUERY_UNREACHED_ONLY) mask &= as_int8((normal_depth & PHOTON_UNREACHED) != 0u);
+    return mask;
+}
+
+#endif

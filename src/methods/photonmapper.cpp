@@ -1,0 +1,133 @@
+// Photon mapping [Jensen 1996, Global Illumination using Photon Maps]: photons are traced once, and stay. What a camera path
+// sees first is lit straight from the lights by next-event estimation, by focused light from the caustic map, and by all
+// other light from the global map: looked up where a ray that gathers it arrives [section 4.2], or at once. Iterations
+// average camera paths; the maps' blur and noise stay.
+#include "base/errors.h"
+#include "base/hash.h"
+#include "methods/light_pass.h"
+#include "methods/method.h"
+#include "methods/photon_map_parameters.h"
+#include "methods/traced_photons.h"
+#include "stages/final_gather.h"
+#include "stages/photon_relaxation.h"
+#include "stages/precomputed_irradiance.h"
+
+#include <optional>
+
+namespace sundog
+{
+namespace
+{
+
+// Between the directions of photons that even each other out: focused light comes in wavefronts, which may cross.
+constexpr float any_direction = -1.0f;
+constexpr float one_wavefront = 0.95f;
+
+class PhotonMapping final : public Method
+{
+public:
+    PhotonMapping(RenderContext& context, const Parameters& parameters)
+        : context_(context),
+          camera_(context.device, context.camera, context.filter, sampler_kind(parameters), context.scene.surface_options()),
+          are_loaded_(!parameters.text("load_map").empty()), pool_(context.device, context.scene, camera_.count()),
+          visible_(context.device, context.scene, camera_.count(), query_rules(parameters), parameters.text("direct") == "nee",
+                   sampler_kind(parameters))
+    {
+        check(parameters);
+        MapPhotons photons = make_map_photons(context, parameters);
+        const int sweeps = static_cast<int>(parameters.integer("relaxation"));
+        const PhotonLookup lookup = global_lookup(context, parameters, photons.global.light_paths);
+        if (sweeps > 0) PhotonRelaxation(context.device, lookup.radius, any_direction).relax(photons.global.photons, sweeps);
+        if (parameters.boolean("final_gather"))
+            final_gather_.emplace(context.device, context.scene, camera_.count(), query_rules(parameters), sampler_kind(parameters));
+        add_map(global_, photons.global, lookup);
+        if (photons.caustic) {
+            const PhotonLookup focused = caustic_lookup(context, parameters, photons.caustic->light_paths);
+            if (sweeps > 0) PhotonRelaxation(context.device, focused.radius, one_wavefront).relax(photons.caustic->photons, sweeps);
+            add_map(caustic_, *photons.caustic, focused);
+        }
+        if (parameters.boolean("precompute")) irradiance_.emplace(context.device, context.scene, photons.global.photons, *global_);
+    }
+
+    void render_pass(std::uint64_t iteration) override
+    {
+        const SamplerKey key = sampler_key(context_.seed, iteration);
+        const float radius = global_->lookup().radius;
+        camera_.start(context_.scene, pool_, key);
+        camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
+        visible_.trace(context_.scene, camera_, pool_, key, radius);
+        if (final_gather_) {
+            final_gather_->trace(context_.scene, camera_, visible_, pool_, key, radius);
+            if (irradiance_) irradiance_->answer(final_gather_->queries, camera_.radiance);
+            global_->add_radiance(final_gather_->queries, final_gather_->lobes, camera_.radiance);
+        } else {
+            global_->add_radiance(visible_.queries, visible_.lobes, camera_.radiance);
+        }
+        if (caustic_) caustic_->add_radiance(visible_.queries, visible_.lobes, camera_.radiance);
+        context_.film.accumulate(camera_.radiance);
+    }
+
+    MethodCounters counters() const override
+    {
+        return {light_paths_, context_.film.iterations() * camera_.count(), photons_stored_, rays_ + pool_.rays_traced()};
+    }
+
+    // The maps follow from the seed, or from their file.
+    void serialize(StateArchive& archive) override
+    {
+        std::uint64_t maps = digest_.low();
+        archive.value("photon maps", maps);
+        if (maps != digest_.low()) throw FileError("cannot resume, the photon maps are not those that the render began with; load those (-p load_map=FILE)");
+        pool_.serialize(archive);
+    }
+
+private:
+    static void check(const Parameters& parameters)
+    {
+        if (!parameters.boolean("precompute")) return;
+        if (!parameters.boolean("final_gather"))
+            parameters.refuse("precompute", "photonmapper's precompute=true is for gather rays: it cannot go with final_gather=false");
+        if (path_rules(parameters).max_depth != UNBOUNDED_DEPTH)
+            parameters.refuse("precompute", "photonmapper's precompute=true sums light of all depths: it cannot go with max_depth=" +
+                                                parameters.text("max_depth") + "; use -p max_depth=-1");
+    }
+
+    void add_map(std::optional<FixedPhotonMap>& map, const TracedPhotons& traced, const PhotonLookup& lookup)
+    {
+        map.emplace(context_.device, context_.scene, camera_.count(), lookup, traced.photons, traced.light_paths);
+        light_paths_ += traced.light_paths;
+        photons_stored_ += traced.photons.size();
+        rays_ += traced.rays;
+        if (are_loaded_) digest_.append_field({reinterpret_cast<const char*>(traced.photons.data()), traced.photons.size() * sizeof(Photon)});
+    }
+
+    RenderContext& context_;
+    CameraPaths camera_;
+    bool are_loaded_; // the maps
+    PathPool pool_;
+    QueryTracer visible_;
+    std::optional<FinalGather> final_gather_;
+    std::optional<FixedPhotonMap> global_, caustic_;
+    std::optional<PrecomputedIrradiance> irradiance_;
+    std::uint64_t light_paths_ = 0, photons_stored_ = 0, rays_ = 0; // of the maps
+    Hash digest_;                                                   // of loaded photons: the file may change
+};
+
+const MethodRegistration registration({
+    .name = "photonmapper",
+    .title = "Photon mapping",
+    .paper = "Jensen 1996, Eurographics Workshop on Rendering",
+    .estimator_class = "biased",
+    .description = "Traces a global and a caustic photon map once, and looks light up in them, diffuse light by final gathering. Soft light without "
+                   "noise after few iterations; the maps' blur stays however long it renders.",
+    .parameters = {global_photons_spec(), global_radius_spec(), caustic_photons_spec(), caustic_radius_spec(), lookup_spec(), nearest_spec(),
+                   filter_kernel_spec(), relaxation_spec(), final_gather_spec(), precompute_spec(), save_map_spec(), load_map_spec(), direct_spec(),
+                   light_choice_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), iterations_spec()},
+    .follows_motion = false,
+    .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
+        return std::make_unique<PhotonMapping>(context, parameters);
+    },
+});
+
+} // namespace
+} // namespace sundog

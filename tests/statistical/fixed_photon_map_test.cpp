@@ -1,0 +1,130 @@
+// What a fixed photon map says of light whose density is known: the mean over the disk (or under the kernel) exactly, and a
+// bias that a radius half as large divides by four.
+
+#include "stages/fixed_photon_map.h"
+#include "stages/light_paths.h"
+#include "support/cornell_scene.h"
+#include "support/render_replicates.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+using namespace sundog;
+using namespace sundog::test;
+using std::numbers::pi;
+
+namespace {
+
+// A point light of intensity 1 at height 1 over a plane.
+Scene lamp_over_plane()
+{
+    Scene scene;
+    const uint white = add_bsdf(scene, DiffuseBsdf{{0.5f, 0.5f, 0.5f}});
+    scene.shapes.push_back(make_quad({-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}, white));
+    scene.emitters.push_back({{}, PointEmitter{{0, 0, 1}, {1, 1, 1}}});
+    return scene;
+}
+
+// As DENSITY_KERNEL, integrating to 1 over the unit disk.
+double kernel_value(int kernel, double t)
+{
+    if (kernel <= 3) return (kernel + 1) / pi * std::pow(1.0 - t * t, kernel);
+    if (kernel == 4) return (1.0 - t / 1.1) / (pi * (1.0 - 2.0 / 3.3));
+    return 1.728309 / pi * (1.0 - (1.0 - std::exp(-1.953 * t * t / 2.0)) / (1.0 - std::exp(-1.953)));
+}
+
+// Mean irradiance under the kernel about the lamp's foot: I h / (h^2 + s^2)^(3/2) at distance s.
+double blurred_irradiance(int kernel, double radius)
+{
+    constexpr int steps = 1000;
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        const double t = (i + 0.5) / steps, s = t * radius;
+        sum += 2.0 * pi * t * kernel_value(kernel, t) / std::pow(1.0 + s * s, 1.5) / steps;
+    }
+    return sum;
+}
+
+class LampOverPlane : public testing::Test {
+protected:
+    static constexpr std::size_t light_paths = 200'000;
+    static constexpr int maps = 12;
+
+    // Of the irradiance at the foot, over maps of different seeds.
+    Estimate irradiance(const std::vector<std::vector<Photon>>& photons, const PhotonLookup& lookup)
+    {
+        std::vector<double> values;
+        for (const auto& of_one_map : photons) {
+            FixedPhotonMap map(device_, scene_, 1, lookup, of_one_map, light_paths);
+            Buffer<GatherQuery> query(device_, std::vector{GatherQuery{{0, 0, 0}, 1.0f, {1, 1, 1}, UNBOUNDED_DEPTH, {0, 0, 1}, 0}}, "query");
+            Buffer<Vec3> result(device_, std::vector{Vec3{0, 0, 0}}, "result");
+            map.add_radiance(query, Buffer<LobeRecord>(device_, 1, "lobes"), result);
+            values.push_back(result.read(0).x);
+        }
+        return estimate_from(values);
+    }
+
+    std::vector<std::vector<Photon>> trace_maps()
+    {
+        PathPool pool(device_, scene_, light_paths);
+        PhotonTracer tracer(device_, scene_, {light_paths, {2, 1}, false, SamplerKind::independent, PhotonsKept::caustic});
+        std::vector<std::vector<Photon>> photons;
+        for (std::uint64_t map = 0; map < maps; ++map) {
+            const std::size_t stored = tracer.trace(scene_, pool, sampler_key(5, map));
+            photons.push_back(tracer.photons().records().download(0, stored));
+        }
+        return photons;
+    }
+
+    Device& device_ = shared_device();
+    DeviceScene scene_{device_, lamp_over_plane()};
+};
+
+TEST_F(LampOverPlane, EstimatesAreTheMeanUnderTheKernel)
+{
+    EXPECT_NEAR(blurred_irradiance(0, 0.5), 2.0 / 0.25 * (1.0 - 1.0 / std::sqrt(1.25)), 1e-5) << "the disk's mean, (2 I h / r^2)(1 / h - 1 / sqrt(h^2 + r^2))";
+    const auto photons = trace_maps();
+    const double quantile = student_quantile(maps - 1, 0.005 / 7);
+    for (int kernel = 0; kernel < 6; ++kernel) {
+        const Estimate found = irradiance(photons, {0.5f, 0, 0.5f, kernel});
+        EXPECT_NEAR(found.mean, blurred_irradiance(kernel, 0.5), quantile * found.standard_error) << "kernel " << kernel;
+        EXPECT_LT(found.standard_error, 0.005) << "kernel " << kernel;
+    }
+    // A tenth of the photons is farther than the usual radius.
+    const Estimate nearest = irradiance(photons, {2.0f, 2000, 0.1f, 0});
+    const double radius = std::sqrt(2000.0 / (pi * light_paths / (4.0 * pi))); // where the density at the foot would hold
+    EXPECT_NEAR(nearest.mean, blurred_irradiance(0, radius), quantile * nearest.standard_error + 0.002);
+}
+
+// To third order: the closed form's own ratio for r = 1/2 is 3.5. A relative error of 1% of the bias is one of 0.15% of the light.
+TEST_F(LampOverPlane, HalvingTheRadiusDividesTheBiasByFour)
+{
+    const auto photons = trace_maps();
+    const Estimate wide = irradiance(photons, {0.5f, 0, 0.5f, 0}), half = irradiance(photons, {0.25f, 0, 0.25f, 0});
+    const double wide_bias = 1.0 - wide.mean, half_bias = 1.0 - half.mean;
+    const double expected = (1.0 - blurred_irradiance(0, 0.5)) / (1.0 - blurred_irradiance(0, 0.25));
+    EXPECT_NEAR(expected, 3.5, 0.05);
+    const double error = half.standard_error / half_bias + wide.standard_error / wide_bias; // relative, of the ratio
+    EXPECT_NEAR(wide_bias / half_bias, expected, 3.0 * error * expected);
+    EXPECT_LT(error, 0.12);
+}
+
+// With light reflected at most so often, in a ball that is lit all over: L_e (1 - rho^D) / (1 - rho).
+TEST(FixedMapSeries, DepthBoundCutsTheSeries)
+{
+    for (const bool final_gather : {true, false}) {
+        for (int depth : {0, 1, 2, 3, 4}) {
+            const RenderRequest request{"photonmapper",
+                                        8,
+                                        {{"max_depth", std::to_string(depth)}, {"sampler", "independent"}, {"radius", "0.1"}, {"photons", "16384"},
+                                         {"final_gather", final_gather ? "true" : "false"}}};
+            const Estimate estimate = estimate_image_mean(load_test_scene("analytic/sphere-furnace.xml"), request, 8);
+            const double answer = (1.0 - std::pow(0.8, depth)) / (1.0 - 0.8);
+            EXPECT_NEAR(estimate.mean, answer, student_quantile(7, 0.005 / 10) * estimate.standard_error + 3e-4 * answer + 2e-5) << depth;
+            EXPECT_LE(estimate.standard_error, 0.015 * answer);
+        }
+    }
+}
+
+} // namespace
