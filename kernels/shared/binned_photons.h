@@ -9,9 +9,9 @@ SHARED_BEGIN
 #define RING_BINS 6u
 #define DISK_BINS 12u
 
-// What estimators/binned_flux.h returns.
+// What estimators/binned_radiance.h returns.
 typedef struct BinnedSum {
-    Vec3 flux;            // W, times emitted paths
+    Vec3 irradiance;      // W/m^2, times emitted paths
     uint bins[DISK_BINS]; // photons
 } BinnedSum;
 SHARED_SIZE(BinnedSum, 60);

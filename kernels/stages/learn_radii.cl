@@ -1,6 +1,6 @@
 // Adaptive progressive radii [Kaplanyan and Dachsbacher 2013, section 4]: each pixel learns its estimates' variance and
 // bias, and takes the radius whose mean error over all iterations is least. Reads queries and what their wide disks tell
-// of errors; updates pixels. One work-item a pixel. Used by appm.
+// of errors; updates pixels. One work-item a pixel. Used with radius_policy=adaptive.
 //
 // An iteration with radius r and M light subpaths has the variance V_1 / (M r^2), V_1 = R E[(beta f Phi)^2] p, and the bias
 // b r^2, b = mu_2 / 2 Delta L. Radii r_i = c i^(-1/6), averaged over N iterations, give the bias b c^2 3/2 N^(-1/3) and the

@@ -1,7 +1,8 @@
 // Gives each query its pixel's radius. Reads the pixels' statistics, whose type is -D PIXEL_STATISTICS; updates
-// queries. One work-item a query. Used by ppm, sppm, appm and cppm.
+// queries. One work-item a query. Used where radii are local.
 #include "shared/adaptive_radius.h"
 #include "shared/binned_photons.h"
+#include "shared/counted_radius.h"
 #include "shared/film.h"
 #include "shared/photon.h"
 

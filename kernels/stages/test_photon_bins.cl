@@ -1,6 +1,6 @@
 // Chi-squared progressive radii [Lin et al. 2020]: a pixel keeps its radius while the photons in its disk look as if
 // they lay evenly. Reads queries, sums and thresholds; updates pixels and adds the photons' estimate to radiance. One
-// work-item a pixel. Used by cppm.
+// work-item a pixel. Used with radius_policy=chi_squared.
 //
 // The paper tests the same growing counts again and again, and so fails sooner or later whatever they are. Here they are
 // tested when their number has doubled, and test k at the level a / ((k + 1) (k + 2)): all tests together reject
@@ -8,8 +8,6 @@
 #include "math/vec3.h"
 #include "shared/binned_photons.h"
 #include "shared/photon.h"
-
-#define PI 3.14159265358979f
 
 // Pearson's statistic of counts that should be equal.
 static inline float chi_squared_of(const uint* bins, uint count)
@@ -39,8 +37,7 @@ __kernel void test_photon_bins(__global const GatherQuery* restrict queries, __g
     if (index >= count || queries[index].radius == 0.0f) return;
     TestedPixel pixel = pixels[index];
     const BinnedSum sum = sums[index];
-    const float density = inverse_paths / (PI * pixel.radius_squared);
-    radiance[index] = pack(unpack(radiance[index]) + unpack(queries[index].throughput) * unpack(sum.flux) * density);
+    radiance[index] = pack(unpack(radiance[index]) + unpack(queries[index].throughput) * unpack(sum.irradiance) * inverse_paths);
 
     float photons = 0.0f;
     for (uint i = 0u; i < DISK_BINS; ++i) {

@@ -2,7 +2,7 @@
 // [Hachisuka and Jensen 2009, eqs. 7 to 9]. Reads queries, sums and `direct`, the radiance that is not from photons;
 // updates pixels and adds this iteration's own photon estimate to radiance, which may be `direct`. One work-item a
 // pixel. Used by ppm and sppm.
-#include "math/compensated.h"
+#include "density/photon_count.h"
 #include "shared/film.h"
 #include "shared/photon.h"
 
@@ -21,10 +21,8 @@ __kernel void update_progressive_pixels(__global const GatherQuery* restrict que
     if (queries[index].radius > 0.0f && found > 0.0f) radiance[index] = pack(unpack(radiance[index]) + flux * (inverse_paths / (PI * pixel.radius_squared)));
     // What is not finite stays out of the statistics; the film counts it.
     if (queries[index].radius > 0.0f && found > 0.0f && is_finite3(flux)) {
-        const float before = pixel.count + pixel.count_error;
-        const float shrink = (before + alpha * found) / (before + found); // (8): r'^2 / r^2
-        add_compensated(&pixel.count, &pixel.count_error, alpha * found); // (7)
-        pixel.radius_squared *= shrink;
+        const float shrink = keep_photons(&pixel.count, &pixel.count_error, found, alpha); // (7)
+        pixel.radius_squared *= shrink; // (8)
         pixel.tau = pack((unpack(pixel.tau) + flux) * shrink); // (9)
     }
     pixels[index] = pixel;

@@ -33,6 +33,7 @@ public:
 
     float first_radius() const { return first_radius_; }
     std::size_t light_paths() const { return light_.light_paths(); }
+    float inverse_paths() const { return 1.0f / static_cast<float>(light_paths()); }
     std::size_t pixels() const { return camera.count(); }
     MethodCounters counters() const;
     void serialize(StateArchive& archive);

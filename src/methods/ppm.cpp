@@ -5,6 +5,7 @@
 #include "methods/method.h"
 #include "methods/photon_pass.h"
 #include "methods/progressive_statistics.h"
+#include "methods/radius_policy.h"
 
 #include <algorithm>
 #include <deque>
@@ -20,6 +21,16 @@ struct HitPoints {
     QueryTracer queries;
     ProgressiveStatistics statistics;
 };
+
+// What fixed hit points have found is rescaled to smaller disks as if it lay evenly in them.
+void refuse_other_parts(const Parameters& parameters)
+{
+    if (parameters.text("radius_policy") != "local")
+        parameters.refuse("radius_policy", "ppm shrinks its hit points' radii by the photons that they find, radius_policy=local; for another choose sppm or "
+                                           "pppm (-m pppm)");
+    if (parameters.text("kernel") != "uniform")
+        parameters.refuse("kernel", "ppm rescales the flux that it has found, which takes kernel=uniform; for another choose pppm (-m pppm)");
+}
 
 class ProgressivePhotonMapping final : public Method
 {
@@ -104,7 +115,7 @@ const MethodRegistration registration({
     .description = "Finds the points that the camera sees once, and lets each shrink its own radius as photons arrive; all light comes by "
                    "photons. Consistent at "
                    "its hit points: for antialiasing and depth of field choose many, or sppm.",
-    .parameters = {photons_spec(), radius_spec(), alpha_spec(),
+    .parameters = {photons_spec(), radius_spec(), radius_policy_spec("local"), alpha_spec(), kernel_spec("uniform"),
                    ParameterSpec{"hit_points",
                                  ParameterType::integer,
                                  "4",
@@ -116,6 +127,7 @@ const MethodRegistration registration({
                    max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), iterations_spec()},
     .follows_motion = false,
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
+        refuse_other_parts(parameters);
         return std::make_unique<ProgressivePhotonMapping>(context, parameters);
     },
 });

@@ -1,8 +1,10 @@
 // Stochastic progressive photon mapping [Hachisuka and Jensen 2009, ACM TOG 28(5)]: statistics shared by all
 // the points that a pixel sees, each iteration another one. Every pixel shrinks its own radius by the photons
 // it finds, so dense caustics sharpen first.
+#include "methods/averaged_photon_mapping.h"
 #include "methods/photon_pass.h"
 #include "methods/progressive_statistics.h"
+#include "methods/radius_policy.h"
 
 namespace sundog
 {
@@ -52,6 +54,18 @@ private:
     ProgressiveStatistics statistics_;
 };
 
+// Flux that has been found is rescaled to smaller disks as if it lay evenly in them: the uniform kernel. Radii that follow
+// from anything else than the count of photons take the mean of iterations in place of that.
+std::unique_ptr<Method> make_sppm(RenderContext& context, const Parameters& parameters)
+{
+    if (parameters.text("radius_policy") != "local") return make_averaged_photon_mapping(context, parameters);
+    refuse_parameters_of_other_policies(parameters);
+    if (parameters.text("kernel") != "uniform")
+        parameters.refuse("kernel", "sppm rescales the flux that it has found, which takes kernel=uniform; for another kernel choose pppm (-m pppm), with "
+                                    "radius_policy=local if need be");
+    return std::make_unique<StochasticProgressivePhotonMapping>(context, parameters);
+}
+
 const MethodRegistration registration({
     .name = "sppm",
     .title = "Stochastic progressive photon mapping",
@@ -61,11 +75,8 @@ const MethodRegistration registration({
     .description =
         "Every pixel keeps its own radius, which shrinks with the photons it has found. Renders caustics and light seen through glass with "
         "depth of field and antialiasing; a good default.",
-    .parameters = {photons_spec(), radius_spec(), alpha_spec(), direct_spec(), light_choice_spec(), max_depth_spec(),
-                   rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), spectral_spec(), iterations_spec()},
-    .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
-        return std::make_unique<StochasticProgressivePhotonMapping>(context, parameters);
-    },
+    .parameters = averaged_specs("uniform", "local"),
+    .create = make_sppm,
 });
 
 } // namespace

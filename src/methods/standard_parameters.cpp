@@ -70,9 +70,9 @@ ParameterSpec light_choice_spec()
             0, 0, {"auto", "tree", "power"}};
 }
 
-ParameterSpec kernel_spec()
+ParameterSpec kernel_spec(const std::string& default_kernel)
 {
-    return {"kernel", ParameterType::choice, "epanechnikov", "", "Smoothing kernel of the density estimate (Silverman 1986).", 0, 0,
+    return {"kernel", ParameterType::choice, default_kernel, "", "Smoothing kernel of the density estimate (Silverman 1986).", 0, 0,
             {"uniform", "epanechnikov", "biweight", "triweight"}};
 }
 

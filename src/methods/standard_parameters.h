@@ -19,7 +19,7 @@ ParameterSpec radius_spec();
 ParameterSpec alpha_spec();
 ParameterSpec direct_spec();
 ParameterSpec light_choice_spec();
-ParameterSpec kernel_spec();
+ParameterSpec kernel_spec(const std::string& default_kernel = "epanechnikov");
 ParameterSpec filter_kernel_spec(); // with the filters of photon maps, for methods that need not know a kernel's moments
 ParameterSpec spectral_spec();
 

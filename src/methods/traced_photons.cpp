@@ -36,7 +36,7 @@ MapPhotons trace_map_photons(RenderContext& context, const Parameters& parameter
     // What is gathered is all the light that arrives.
     if (parameters.boolean("final_gather")) settings.kept = PhotonsKept::all;
     MapPhotons maps{trace_photons(context, settings, 0), {}};
-    if (next_event && !context.scene.has_focusing_lobes()) return maps;
+    if (next_event && !context.scene.has_focusing_lobes() && !context.scene.has_collimated_lights()) return maps;
     settings.kept = PhotonsKept::caustic;
     settings.direct_light_elsewhere = next_event;
     settings.paths = caustic_path_count(parameters, pixels);

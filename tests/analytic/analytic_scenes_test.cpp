@@ -14,7 +14,7 @@ using namespace sundog::test;
 namespace {
 
 constexpr int replicates = 10;
-constexpr int tests_in_file = 64; // bounds the family for the Bonferroni correction below
+constexpr int tests_in_file = 70; // bounds the family for the Bonferroni correction below
 
 // The number after "answer:" in the scene's comment.
 double answer_of(const std::string& scene)
@@ -43,7 +43,7 @@ std::string name_of(const testing::TestParamInfo<Case>& info)
 {
     std::string name = info.param.scene + "_" + info.param.method;
     for (const auto& [key, value] : info.param.parameters)
-        if (key == "direct" || key == "kernel" || key == "sampler" || key == "lookup") name += "_" + value;
+        if (key == "direct" || key == "kernel" || key == "radius_policy" || key == "sampler" || key == "lookup") name += "_" + value;
         else if (key == "final_gather") name += "_final_gather_" + value;
     for (char& c : name)
         if (c == '-') c = '_';
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"parallel-light", "pppm", {{"radius", "0.2"}, {"direct", "photons"}, {"photons", "32768"}}},
                     Case{"parallel-light", "sppm", {{"radius", "0.2"}, {"direct", "photons"}, {"photons", "32768"}}}, Case{"parallel-light", "pppm", {}},
                     Case{"parallel-light", "sppm", {}}, Case{"point-over-plane", "pppm", {}}, Case{"point-over-plane", "sppm", {}},
-                    Case{"collimated-beam", "pppm", {{"radius", "0.05"}, {"direct", "photons"}}}, Case{"collimated-beam", "pppm", {{"radius", "0.05"}}},
+                    Case{"collimated-beam", "pppm", {{"radius", "0.05"}, {"direct", "photons"}}}, Case{"collimated-beam", "pppm", {{"radius", "0.05"}}}, Case{"collimated-beam", "photonmapper", {{"caustic_radius", "0.05"}}},
                     Case{"sphere-light", "pppm", {}}, Case{"sphere-light", "sppm", {}}, Case{"glass-in-white", "pppm", {}}, Case{"glass-in-white", "sppm", {}},
                     Case{"orthographic-plane", "pppm", {}}, Case{"orthographic-plane", "sppm", {}}, Case{"glass-in-white", "cppm", {}}, Case{"glass-in-white", "appm", {}},
                     Case{"furnace", "appm", {{"radius", "0.1"}, {"direct", "photons"}}}, Case{"glass-in-white", "ppm", {}},
@@ -135,6 +135,16 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"sphere-light", "sppm", {{"radius", "0.08"}, {"direct", "photons"}, {"photons", "65536"}}, blur(0.08, 1.0 / 4, 2)},
         Case{"point-over-plane", "photonmapper", {{"caustic_radius", "0.05"}, {"direct", "photons"}, {"kernel", "cone"}, {"caustic_photons", "1e6"}}, blur(0.05, 0.1731, 1)},
         Case{"point-over-plane", "photonmapper", {{"caustic_radius", "0.05"}, {"direct", "photons"}, {"kernel", "gaussian"}, {"caustic_photons", "1e6"}}, blur(0.05, 0.1985, 1)}),
+    name_of);
+
+// Every radius policy with a kernel that no method has by default.
+INSTANTIATE_TEST_SUITE_P(
+    RadiusPolicies, AnalyticScenes,
+    testing::Values(Case{"furnace", "pppm", {{"radius", "0.1"}, {"radius_policy", "fixed"}, {"kernel", "biweight"}}},
+                    Case{"furnace", "pppm", {{"radius", "0.1"}, {"radius_policy", "local"}, {"kernel", "triweight"}}},
+                    Case{"furnace", "cppm", {{"radius", "0.1"}, {"radius_policy", "adaptive"}, {"kernel", "uniform"}}},
+                    Case{"furnace", "sppm", {{"radius", "0.1"}, {"radius_policy", "chi_squared"}, {"kernel", "epanechnikov"}}},
+                    Case{"furnace", "appm", {{"radius", "0.1"}, {"radius_policy", "schedule"}, {"kernel", "triweight"}}}),
     name_of);
 
 // A bound on the path's edges cuts the furnace's series: L_e (1 - rho^D) / (1 - rho).

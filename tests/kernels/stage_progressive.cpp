@@ -2,6 +2,7 @@
 // gathered light, light samples and splats.
 #include "shared/film.h"
 #include "shared/path.h"
+#include "shared/counted_radius.h"
 #include "shared/photon.h"
 #include "support/device_fixture.h"
 #include "support/double3.h"
@@ -181,6 +182,34 @@ TEST_F(ProgressiveStage, UnoccludedLightIsAdded)
     const std::vector<float> expected = {10, 10, 10, 10, 10, 15, 10, 17}; // path 0 lies beyond the count of 3
     const auto got = radiance.download();
     for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(got[i].x, expected[i]) << i;
+}
+
+// The same radii where no flux is kept.
+TEST_F(ProgressiveStage, LocalRadiiFollowTheRecurrence)
+{
+    constexpr uint pixels = 100;
+    constexpr float alpha = 0.6f;
+    std::vector<double> radius_squared(pixels, 0.25f), counts(pixels, 0.0);
+    const auto device_pixels = upload(std::vector<CountedPixel>(pixels, {0.25f, 0, 0}));
+    const Kernel shrink(device_, "shrink_radii", "Shrink");
+    for (int iteration = 0; iteration < 500; ++iteration) {
+        std::vector<GatherQuery> queries(pixels);
+        std::vector<GatherSum> sums(pixels);
+        for (uint i = 0; i < pixels; ++i) {
+            queries[i].radius = random_() % 8 != 0 ? 0.1f : 0.0f;
+            sums[i].count = random_() % 4 == 0 ? 0.0f : static_cast<float>(random_() % 50);
+            if (queries[i].radius == 0.0f || sums[i].count == 0.0f) continue;
+            const double found = sums[i].count, kept = counts[i] + static_cast<double>(alpha) * found;
+            radius_squared[i] *= kept / (counts[i] + found);
+            counts[i] = kept;
+        }
+        shrink(pixels, upload(queries), upload(sums), pixels, alpha, device_pixels);
+    }
+    const auto got = device_pixels.download();
+    for (uint i = 0; i < pixels; ++i) {
+        EXPECT_NEAR(got[i].count + got[i].count_error, counts[i], 1e-6 * counts[i]) << i;
+        EXPECT_NEAR(got[i].radius_squared, radius_squared[i], 500 * 1.2e-7 * radius_squared[i]) << i; // a rounding each time
+    }
 }
 
 TEST_F(ProgressiveStage, FreeSplatsBecomeDeposits)

@@ -1,24 +1,24 @@
-// Estimator: flux of the photons within the radius, and where in the disk they lie: two rings of equal area and six
-// sectors, for the chi-squared test of [Lin et al. 2020, section 4]. Used by cppm.
+// Estimator: radiance by a smoothing kernel, and where in the disk the photons lie: two rings of equal area and six
+// sectors, for the chi-squared test of [Lin et al. 2020, section 4].
 #ifndef SUNDOG_ESTIMATOR_H
 #define SUNDOG_ESTIMATOR_H
+#include "estimators/weighted_flux.h"
 #include "math/frame.h"
 #include "math/simd8.h"
-#include "math/sum8.h"
 #include "shared/binned_photons.h"
 #include "shared/photon.h"
 
 #define ESTIMATOR_RESULT BinnedSum
 
 typedef struct Estimate {
-    float8 red, green, blue;
+    WeightedFlux flux;
     float3 s, t; // span the tangent plane
     uint bins[DISK_BINS];
 } Estimate;
 
 static inline void estimator_begin(Estimate* estimate, const GatherQuery* query)
 {
-    estimate->red = estimate->green = estimate->blue = (float8)(0.0f);
+    estimate->flux = no_flux();
     const Frame frame = make_frame(unpack(query->normal));
     estimate->s = frame.s;
     estimate->t = frame.t;
@@ -38,9 +38,7 @@ static inline int8 bin_of(const Estimate* estimate, Offset8 offset, float8 t_squ
 
 static inline void estimator_add(Estimate* estimate, int8 mask, Offset8 offset, float8 t_squared, float8 red, float8 green, float8 blue)
 {
-    estimate->red += as_float8(mask & as_int8(red));
-    estimate->green += as_float8(mask & as_int8(green));
-    estimate->blue += as_float8(mask & as_int8(blue));
+    add_flux(&estimate->flux, mask, t_squared, red, green, blue);
     int bin[8];
     vstore8(bin_of(estimate, offset, t_squared), 0, bin);
     for (int lanes = mask8(mask); lanes != 0; lanes &= lanes - 1) estimate->bins[bin[first_lane(lanes)]]++;
@@ -48,7 +46,7 @@ static inline void estimator_add(Estimate* estimate, int8 mask, Offset8 offset, 
 
 static inline ESTIMATOR_RESULT estimator_end(const Estimate* estimate, float radius)
 {
-    ESTIMATOR_RESULT sum = {{sum8(estimate->red), sum8(estimate->green), sum8(estimate->blue)}, {0u}};
+    ESTIMATOR_RESULT sum = {irradiance_of(&estimate->flux, radius), {0u}};
     for (uint i = 0u; i < DISK_BINS; ++i) sum.bins[i] = estimate->bins[i];
     return sum;
 }
