@@ -6,7 +6,7 @@
 typedef struct EmissionSample {
     Ray ray;
     float3 flux; // radiance * cos / pdf, W; the choice of the light is in it
-    bool from_delta_light;
+    uint path_flags; // PATH_FROM_...
 } EmissionSample;
 
 static inline Ray emission_ray(float3 origin, float3 direction)
@@ -37,7 +37,7 @@ static inline EmissionSample sample_emission(const SurfaceView* scene, uint4 wor
     const float3 emission = transport_emission(scene, unpack(light.emission)) / light.probability;
     const float disk_area = PI_F * scene->globals->radius * scene->globals->radius;
     EmissionSample sample;
-    sample.from_delta_light = LIGHT_IS_DELTA(light.type);
+    sample.path_flags = LIGHT_IS_DELTA(light.type) ? PATH_FROM_DELTA_LIGHT : 0u;
     switch (light.type) {
     case LIGHT_POINT:
         sample.ray = emission_ray(unpack(light.position), sample_sphere(u_direction));
@@ -65,6 +65,11 @@ static inline EmissionSample sample_emission(const SurfaceView* scene, uint4 wor
     case LIGHT_DIRECTIONAL:
         sample.ray = distant_ray(scene, unpack(light.direction), u.xy);
         sample.flux = emission * disk_area;
+        break;
+    case LIGHT_COLLIMATED:
+        sample.ray = emission_ray(unpack(light.position), unpack(light.direction));
+        sample.flux = emission;
+        sample.path_flags |= PATH_FROM_COLLIMATED_LIGHT;
         break;
     case LIGHT_CONSTANT:
         sample.ray = distant_ray(scene, sample_sphere(u_direction), u.xy);

@@ -235,6 +235,7 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
         sample->pdf_w = PDF_DELTA;
         sample->shadow_ray = ray_from(surface, sample->direction);
         return true;
+    case LIGHT_COLLIMATED: return false; // of all points only those on one ray see it
     case LIGHT_CONSTANT:
         sample->direction = sample_sphere(u);
         sample->pdf_w = probability * (0.25f * INV_PI_F);

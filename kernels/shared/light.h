@@ -15,9 +15,11 @@ SHARED_BEGIN
 #define LIGHT_CYLINDER 7u    // as LIGHT_TRIANGLE
 #define LIGHT_ENVMAP 8u      // emission: factor on the radiance of an EnvironmentMap
 #define LIGHT_PROJECTOR 9u   // emission: irradiance where the axis meets a plane one unit away (W/m^2)
+#define LIGHT_COLLIMATED 10u // emission: flux along the one ray that it sends (W)
 
 // Whether paths can only start there, never arrive.
-#define LIGHT_IS_DELTA(type) ((type) == LIGHT_POINT || (type) == LIGHT_SPOT || (type) == LIGHT_DIRECTIONAL || (type) == LIGHT_PROJECTOR)
+#define LIGHT_IS_DELTA(type) \
+    ((type) == LIGHT_POINT || (type) == LIGHT_SPOT || (type) == LIGHT_DIRECTIONAL || (type) == LIGHT_PROJECTOR || (type) == LIGHT_COLLIMATED)
 
 typedef struct Light {
     uint type;
@@ -28,9 +30,9 @@ typedef struct Light {
                        // environment map its mean luminance
     Vec3 emission;
     float cutoff_angle; // spot: no light beyond this angle (rad)
-    Vec3 position;      // point, spot and projector
+    Vec3 position;      // point, spot, projector and collimated
     float beam_width;   // spot: full intensity within this angle (rad)
-    Vec3 direction;     // spot, projector and directional: of propagation, unit length
+    Vec3 direction;     // spot, projector, directional and collimated: of propagation, unit length
     uint texture;       // factor on the emission of an area light, spot or projector, or NO_TEXTURE
 } Light;
 SHARED_SIZE(Light, 64);

@@ -16,7 +16,7 @@ __kernel void emit_light_paths(SURFACE_PARAMETERS, SamplerKey key, uint count, _
     const float4 u_direction = next_4d(&sampler);
     const EmissionSample emission = sample_emission(&scene, words, u_direction.xy);
     rays[path] = emission.ray;
-    PathState state = {pack(emission.flux), PDF_DELTA, 1u, 0u, 1.0f, emission.from_delta_light ? PATH_FROM_DELTA_LIGHT : 0u};
+    PathState state = {pack(emission.flux), PDF_DELTA, 1u, 0u, 1.0f, emission.path_flags};
     paths[path] = state;
     active[path] = path;
 }

@@ -48,6 +48,7 @@ const char* kind(const DirectionalEmitter&) { return "directional"; }
 const char* kind(const ConstantEmitter&) { return "constant"; }
 const char* kind(const EnvironmentEmitter&) { return "envmap"; }
 const char* kind(const ProjectorEmitter&) { return "projector"; }
+const char* kind(const CollimatedEmitter&) { return "collimated"; }
 
 template <class Variant> void count(std::map<std::string, std::size_t>& counts, const Variant& variant)
 {

@@ -68,7 +68,7 @@ uint BsdfImporter::import(const XmlElement& element)
     return index;
 }
 
-uint BsdfImporter::add_diffuse(const std::string& id, const SourceLocation& where, Vec3 reflectance)
+uint BsdfImporter::add_diffuse(const std::string& id, const SourceLocation& where, ColorSource reflectance)
 {
     bsdfs_.push_back({id, where, DiffuseBsdf{reflectance}});
     return static_cast<uint>(bsdfs_.size() - 1);
@@ -294,7 +294,7 @@ BumpMapBsdf BsdfImporter::read_bump_map(ObjectReader& reader)
 // order in which they are read again when the tree has been written.
 uint BsdfImporter::blend_of(const SourceLocation& where, std::span<const WeightedBsdf> parts)
 {
-    if (parts.size() == 1) return parts.front().bsdf ? import(*parts.front().bsdf) : add_diffuse("", where, {0, 0, 0});
+    if (parts.size() == 1) return parts.front().bsdf ? import(*parts.front().bsdf) : add_diffuse("", where, Vec3{0, 0, 0});
     const auto half = parts.subspan(0, parts.size() / 2), rest = parts.subspan(parts.size() / 2);
     const auto sum = [](std::span<const WeightedBsdf> some) {
         return std::accumulate(some.begin(), some.end(), 0.0, [](double total, const WeightedBsdf& part) { return total + part.weight; });

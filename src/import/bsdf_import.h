@@ -20,7 +20,7 @@ public:
 
     // Each returns an index into the list. Throws SceneError for plugins and values that are not supported.
     uint import(const XmlElement& element);
-    uint add_diffuse(const std::string& id, const SourceLocation& where, Vec3 reflectance);
+    uint add_diffuse(const std::string& id, const SourceLocation& where, ColorSource reflectance);
 
 private:
     using Model = decltype(BsdfDescription::model);

@@ -95,6 +95,16 @@ DirectionalEmitter read_directional(ObjectReader& reader)
     return emitter;
 }
 
+CollimatedEmitter read_collimated(ObjectReader& reader)
+{
+    CollimatedEmitter emitter;
+    const Transform to_world = reader.transform("to_world");
+    emitter.position = to_world.point({0, 0, 0});
+    emitter.direction = direction_of(to_world.vector({0, 0, 1}));
+    emitter.power = reader.color("power", {1, 1, 1}, ColorRole::emission);
+    return emitter;
+}
+
 EnvironmentEmitter read_environment(ObjectReader& reader)
 {
     EnvironmentEmitter emitter;
@@ -121,13 +131,12 @@ EnvironmentEmitter read_environment(ObjectReader& reader)
         {"sky", "render it to a latitude-longitude image and use that in an envmap"},
         {"sun", "use a directional emitter, or an envmap whose image has the sun in it"},
         {"sunsky", "render it to a latitude-longitude image and use that in an envmap"},
-        {"collimated", "use a spot with a small cutoff_angle, or a directional emitter behind a hole"},
         {"directionalarea", "use a directional emitter behind a hole of that shape"},
         {"volumelight", "use an area emitter on the volume's surface"},
     };
     for (const auto& [type, cure] : cures)
         if (reader.type() == type) throw SceneError(reader.where(), "emitter plugin '" + reader.type() + "' is not supported: " + cure);
-    reader.unsupported("area (inside a shape), point, spot, directional, constant, envmap, projector");
+    reader.unsupported("area (inside a shape), point, spot, directional, constant, envmap, projector, collimated");
 }
 
 } // namespace
@@ -146,6 +155,8 @@ EmitterDescription import_emitter(const XmlElement& element, const SceneIndex& i
         description.model = read_directional(reader);
     else if (type == "constant")
         description.model = ConstantEmitter{reader.color("radiance", {1, 1, 1}, ColorRole::emission)};
+    else if (type == "collimated")
+        description.model = read_collimated(reader);
     else if (type == "projector")
         description.model = read_projector(reader, textures);
     else if (type == "envmap")

@@ -33,11 +33,11 @@ ColorSource source(Vec3 value, const std::optional<uint>& texture)
     return texture ? ColorSource(value, *texture) : ColorSource(value);
 }
 
-// Any pose with that axis, about which a spot without texture is the same all around.
-Transform pose_around_axis(const SpotEmitter& spot)
+// Any pose with that axis, for what is the same all around it.
+Transform pose_around_axis(Vec3 origin, Vec3 axis)
 {
-    const Double3 position{spot.position.x, spot.position.y, spot.position.z};
-    const Double3 z{spot.direction.x, spot.direction.y, spot.direction.z};
+    const Double3 position{origin.x, origin.y, origin.z};
+    const Double3 z{axis.x, axis.y, axis.z};
     auto to_world = Transform::look_at({0, 0, 0}, z, {}).value();
     for (std::size_t i = 0; i < 3; i++) {
         to_world.m[i][2] = z[i];
@@ -63,7 +63,7 @@ struct EmitterWriter {
     void operator()(const SpotEmitter& spot)
     {
         ObjectWriter object = root.object("emitter", "spot");
-        object.transform("to_world", spot.texture ? frame(spot.axis_x, spot.axis_y, spot.direction, spot.position) : pose_around_axis(spot));
+        object.transform("to_world", spot.texture ? frame(spot.axis_x, spot.axis_y, spot.direction, spot.position) : pose_around_axis(spot.position, spot.direction));
         object.color("intensity", spot.intensity);
         if (spot.texture) textures.color(object, "texture", source({1, 1, 1}, spot.texture));
         object.number("cutoff_angle", degrees(spot.cutoff_angle, where));
@@ -75,6 +75,13 @@ struct EmitterWriter {
         ObjectWriter object = root.object("emitter", "directional");
         object.vector("vector", "direction", directional.direction);
         object.color("irradiance", directional.irradiance);
+    }
+
+    void operator()(const CollimatedEmitter& collimated)
+    {
+        ObjectWriter object = root.object("emitter", "collimated");
+        object.transform("to_world", pose_around_axis(collimated.position, collimated.direction));
+        object.color("power", collimated.power);
     }
 
     void operator()(const ConstantEmitter& constant) { root.object("emitter", "constant").color("radiance", constant.radiance); }

@@ -13,6 +13,8 @@ namespace sundog
 struct ObjMaterial {
     std::string name;
     Vec3 diffuse;
+    std::optional<std::filesystem::path> diffuse_image; // map_Kd, which takes the place of `diffuse`, as in Mitsuba 0.6
+    bool image_repeats = true; // else its edge goes on
 };
 
 struct ObjOptions {
@@ -31,7 +33,7 @@ struct ObjFile : MeshFile {
 
 // Polygons are triangulated. Vertices are distinct triples of position, texture coordinate and normal, as in Mitsuba, so
 // that seams stay sharp where normals have to be computed; a corner without a texture coordinate has (0, 0). Materials
-// (diffuse colours) are read on request only. Lines that end in a backslash continue.
+// (diffuse colours and images) are read on request only. Lines that end in a backslash continue.
 // Throws SceneError: at `wanted_at` for an unreadable file, else at the line of the OBJ file for coordinates that are not
 // finite numbers, faces of fewer than three vertices, concave faces of very many, and indices that are zero, malformed or
 // out of range.

@@ -2,6 +2,7 @@
 
 #include "import/text_file.h"
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <tiny_obj_loader.h>
@@ -11,6 +12,22 @@ namespace sundog
 
 namespace
 {
+
+// Libraries written on Windows separate folders by backslashes.
+std::filesystem::path image_beside(const std::filesystem::path& library, std::string name)
+{
+    std::replace(name.begin(), name.end(), '\\', '/');
+    return (library.parent_path() / name).lexically_normal();
+}
+
+// Whether options scale, move or stir the image.
+bool places_image(const tinyobj::texture_option_t& options)
+{
+    const auto is = [](const tinyobj::real_t (&values)[3], tinyobj::real_t standard) {
+        return std::all_of(std::begin(values), std::end(values), [&](tinyobj::real_t value) { return value == standard; });
+    };
+    return !is(options.scale, 1) || !is(options.origin_offset, 0) || !is(options.turbulence, 0);
+}
 
 void append_library(const std::filesystem::path& file, ObjFile& result)
 {
@@ -23,13 +40,13 @@ void append_library(const std::filesystem::path& file, ObjFile& result)
     for (std::string line; std::getline(lines, line);)
         if (!line.empty()) result.warnings.push_back(line);
     for (const auto& material : materials) {
-        result.materials.push_back({material.name, {material.diffuse[0], material.diffuse[1], material.diffuse[2]}});
-        if (!material.diffuse_texname.empty())
-            result.warnings.emplace_back("material '" + material.name + "': texture '" + material.diffuse_texname +
-                                      "' is not supported, using Kd", WarningKind::approximated);
+        result.materials.push_back({material.name, {material.diffuse[0], material.diffuse[1], material.diffuse[2]}, {}, !material.diffuse_texopt.clamp});
+        if (!material.diffuse_texname.empty()) result.materials.back().diffuse_image = image_beside(file, material.diffuse_texname);
         const bool emits = material.emission[0] > 0 || material.emission[1] > 0 || material.emission[2] > 0;
-        if (emits || material.dissolve < 1.0f || material.illum >= 3)
-            result.warnings.emplace_back("material '" + material.name + "': only its diffuse colour is used", WarningKind::approximated);
+        const bool has_other_images = !material.alpha_texname.empty() || !material.bump_texname.empty() || !material.normal_texname.empty();
+        if (emits || material.dissolve < 1.0f || material.illum >= 3 || has_other_images || places_image(material.diffuse_texopt))
+            result.warnings.emplace_back("material '" + material.name + "': only its diffuse colour or image is used, where its texture coordinates place it",
+                                         WarningKind::approximated);
     }
 }
 

@@ -186,6 +186,14 @@ private:
 
     uint obj_bsdf(const ObjMaterial& material)
     {
+        if (material.diffuse_image) {
+            try {
+                const WrapMode wrap = material.image_repeats ? WrapMode::repeat : WrapMode::clamp;
+                return bsdfs_.add_diffuse(material.name, common_.where, textures_.image(*material.diffuse_image, common_.where, wrap));
+            } catch (const SceneError& error) {
+                reader_.index().warn({}, std::string(error.what()) + "; material '" + material.name + "' takes its Kd", WarningKind::approximated);
+            }
+        }
         const Vec3 clamped = min(max(material.diffuse, Vec3{0, 0, 0}), Vec3{1, 1, 1});
         if (!(clamped == material.diffuse))
             reader_.index().warn(common_.where, "Kd of material '" + material.name + "' is outside of [0, 1] and was clamped", WarningKind::approximated);

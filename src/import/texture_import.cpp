@@ -150,18 +150,31 @@ BitmapTexture TextureImporter::read_bitmap(ObjectReader& reader)
     if (gamma != -1.0 && gamma != 1.0 && gamma != 2.2)
         throw SceneError(reader.where_of("gamma"), "'gamma' of a bitmap must be 1 (linear) or -1 (as the file says): convert the image");
     const bool raw = reader.boolean("raw", gamma == 1.0);
-    auto& image = images_[{file, raw}];
-    if (!image) {
-        bool replaced = false;
-        image = std::make_shared<const TexelImage>(load_bitmap(file, reader.where_of("filename"), raw, replaced));
-        if (replaced) index_.warn(reader.where_of("filename"), "values of '" + file.string() + "' that are not finite were replaced: NaN by 0, infinity by 65504",
-                                      WarningKind::approximated);
-    }
-    bitmap.image = image;
+    bitmap.image = texels(file, reader.where_of("filename"), raw);
     bitmap.wrap = read_wrap(reader);
     bitmap.filter = read_filter(reader);
     for (const char* name : {"accel", "format", "max_anisotropy", "cache", "channel"}) reader.ignore(name, "it does not change the image");
     return bitmap;
+}
+
+std::shared_ptr<const TexelImage> TextureImporter::texels(const std::filesystem::path& file, const SourceLocation& where, bool raw)
+{
+    if (const auto found = images_.find({file, raw}); found != images_.end()) return found->second;
+    bool replaced = false;
+    auto image = std::make_shared<const TexelImage>(load_bitmap(file, where, raw, replaced));
+    if (replaced)
+        index_.warn(where, "values of '" + file.string() + "' that are not finite were replaced: NaN by 0, infinity by 65504", WarningKind::approximated);
+    images_[{file, raw}] = image;
+    return image;
+}
+
+ColorSource TextureImporter::image(const std::filesystem::path& file, const SourceLocation& where, WrapMode wrap)
+{
+    TextureDescription texture;
+    texture.where = where;
+    texture.model = BitmapTexture{texels(file, where, false), wrap};
+    textures_.push_back(std::move(texture));
+    return {Vec3{1, 1, 1}, static_cast<uint>(textures_.size() - 1)};
 }
 
 CheckerboardTexture TextureImporter::read_checkerboard(ObjectReader& reader)

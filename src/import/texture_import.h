@@ -20,6 +20,10 @@ public:
     // A parameter that is a number or a texture, in [least, most].
     NumberSource number(ObjectReader& reader, std::string_view name, double fallback, double least, double most);
 
+    // An image file without a plugin of its own, its settings as bitmap's; `where`: of what wants it. Throws SceneError for
+    // an unreadable file.
+    ColorSource image(const std::filesystem::path& file, const SourceLocation& where, WrapMode wrap);
+
     // The one texture inside, whatever its name. Throws SceneError for more.
     std::optional<ColorSource> nested(ObjectReader& reader);
     // Width over height of an image, 1 of other textures.
@@ -32,6 +36,7 @@ private:
     ColorSource import(const XmlElement& element);
     ColorSource add(const XmlElement& element, ObjectReader& reader, decltype(TextureDescription::model) model);
     BitmapTexture read_bitmap(ObjectReader& reader);
+    std::shared_ptr<const TexelImage> texels(const std::filesystem::path& file, const SourceLocation& where, bool raw);
     CheckerboardTexture read_checkerboard(ObjectReader& reader);
     ColorSource read_scale(ObjectReader& reader);
 

@@ -45,6 +45,7 @@ public:
         pass_.gather_photons(gather_);
         add_gathered_(count, pass_.queries.queries, gather_.sums, count, 1.0f / static_cast<float>(pass_.light_paths()),
                       pass_.camera.radiance);
+        context_.spectral.to_rgb(pass_.camera.radiance);
         context_.film.accumulate(pass_.camera.radiance);
 
         learn_radii_(count, pass_.queries.queries, gather_errors_.sums, schedule(done), count, pixels_);
@@ -88,7 +89,7 @@ const MethodRegistration registration({
                    "global schedule. "
                    "`radius` is the largest: choose it wide.",
     .parameters = {photons_spec(), radius_spec(), kernel_spec(), direct_spec(), light_choice_spec(), max_depth_spec(),
-                   rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), iterations_spec()},
+                   rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), spectral_spec(), iterations_spec()},
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<AdaptiveProgressivePhotonMapping>(context, parameters);
     },

@@ -51,6 +51,7 @@ struct MethodInfo {
     std::string description; // a few sentences: idea, when to use it
     std::vector<ParameterSpec> parameters;
     bool follows_motion = true; // false: what the camera sees is found once, so nothing may move
+    bool traces_light = true; // false: it has no paths from lights, so a collimated one stays dark
     std::unique_ptr<Method> (*create)(RenderContext&, const Parameters&) = nullptr;
 };
 

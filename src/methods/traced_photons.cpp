@@ -39,7 +39,7 @@ MapPhotons trace_map_photons(RenderContext& context, const Parameters& parameter
     // What is gathered is all the light that arrives.
     if (parameters.boolean("final_gather")) settings.kept = PhotonsKept::all;
     MapPhotons maps{trace_photons(context, settings, 0), {}};
-    if (next_event && !context.scene.has_focusing_lobes()) return maps;
+    if (next_event && !context.scene.has_focused_light()) return maps;
     settings.kept = PhotonsKept::caustic;
     settings.direct_light_elsewhere = next_event;
     settings.paths = caustic_path_count(parameters, pixels);

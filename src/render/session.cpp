@@ -103,6 +103,16 @@ struct RenderSession::State {
     {
         if (scene.has_dispersion() && !device_scene.is_spectral())
             log_warning("the scene's glass has dispersion, which shows only with spectral=true (-p spectral=true); each index is taken at 589.3 nm");
+        warn_of_beams();
+    }
+
+    void warn_of_beams() const
+    {
+        if (info.traces_light) return;
+        for (const EmitterDescription& emitter : scene.emitters)
+            if (std::holds_alternative<CollimatedEmitter>(emitter.model))
+                log_warning(fmt::format("{}{} has no paths from lights, so this collimated emitter stays dark: choose sppm (-m sppm)",
+                                        emitter.where.prefix(), info.name));
     }
 
     Scene scene;

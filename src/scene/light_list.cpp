@@ -98,6 +98,14 @@ struct EmitterFlattener {
         light.direction = directional.direction;
         return light;
     }
+    Light operator()(const CollimatedEmitter& collimated) const
+    {
+        Light light = dark_light(LIGHT_COLLIMATED);
+        light.emission = collimated.power;
+        light.position = collimated.position;
+        light.direction = collimated.direction;
+        return light;
+    }
     Light operator()(const ConstantEmitter& constant) const
     {
         Light light = dark_light(LIGHT_CONSTANT);
@@ -165,6 +173,7 @@ double power_of(const Light& light, double emission, double scene_radius)
     case LIGHT_SPOT: return emission * 2.0 * pi * (1.0 - std::cos(0.5 * (static_cast<double>(light.cutoff_angle) + light.beam_width)));
     case LIGHT_DIRECTIONAL: return emission * disk;
     case LIGHT_CONSTANT: return emission * pi * 4.0 * disk;
+    case LIGHT_COLLIMATED: return emission;
     case LIGHT_PROJECTOR: return emission * static_cast<double>(light.area);
     case LIGHT_ENVMAP: return emission * static_cast<double>(light.area) * pi * 4.0 * disk;
     default: return emission * pi * static_cast<double>(light.area);

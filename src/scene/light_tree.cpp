@@ -280,7 +280,7 @@ std::vector<LightNode> build_light_tree(const FlatScene& flat)
     const BoundsOfLight bounds_of(flat);
     double total = 0.0, finite_power = 0.0;
     for (uint i = 0; i < flat.lights.size(); i++) {
-        if (!(flat.lights[i].probability > 0.0f)) continue;
+        if (!(flat.lights[i].probability > 0.0f) || flat.lights[i].type == LIGHT_COLLIMATED) continue;
         if (is_everywhere(flat.lights[i])) {
             distant.push_back(i);
             continue;

@@ -307,6 +307,13 @@ struct DirectionalEmitter {
     Vec3 irradiance; // W/m^2 across the direction
 };
 
+// All its light goes along one ray.
+struct CollimatedEmitter {
+    Vec3 position;
+    Vec3 direction; // of propagation, unit length
+    Vec3 power; // W
+};
+
 struct ConstantEmitter {
     Vec3 radiance; // W/m^2/sr
 };
@@ -323,7 +330,7 @@ struct EnvironmentEmitter {
 
 struct EmitterDescription {
     SourceLocation where;
-    std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter, EnvironmentEmitter, ProjectorEmitter> model;
+    std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter, EnvironmentEmitter, ProjectorEmitter, CollimatedEmitter> model;
 };
 
 // --- Sensor and film ------------------------------------------------------------

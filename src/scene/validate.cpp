@@ -46,6 +46,7 @@ Vec3 emission_of(const EmitterDescription& emitter)
         Vec3 operator()(const PointEmitter& e) const { return e.intensity; }
         Vec3 operator()(const SpotEmitter& e) const { return e.intensity; }
         Vec3 operator()(const DirectionalEmitter& e) const { return e.irradiance; }
+        Vec3 operator()(const CollimatedEmitter& e) const { return e.power; }
         Vec3 operator()(const ConstantEmitter& e) const { return e.radiance; }
         Vec3 operator()(const ProjectorEmitter& e) const { return e.irradiance; }
         Vec3 operator()(const EnvironmentEmitter& e) const { return Vec3{1, 1, 1} * static_cast<float>(e.scale * mean_luminance(e)); }

@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"point-over-plane", "ptracer", {{"photons", "65536"}}}, Case{"sphere-light", "path", {}},
                     Case{"sphere-light", "ptracer", {{"photons", "131072"}}}, Case{"glass-in-white", "path", {}}, Case{"furnace", "path", {{"sampler", "sobol"}}},
                     Case{"orthographic-plane", "path", {}}, Case{"orthographic-plane", "ptracer", {{"photons", "65536"}}},
-                    Case{"furnace", "ptracer", {{"sampler", "sobol"}}}),
+                    Case{"furnace", "ptracer", {{"sampler", "sobol"}}}, Case{"collimated-beam", "ptracer", {}}),
     name_of);
 
 // In the furnace and under parallel light the irradiance is the same everywhere: away from edges there is no bias.
@@ -96,6 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"parallel-light", "pppm", {{"radius", "0.2"}, {"direct", "photons"}, {"photons", "32768"}}},
                     Case{"parallel-light", "sppm", {{"radius", "0.2"}, {"direct", "photons"}, {"photons", "32768"}}}, Case{"parallel-light", "pppm", {}},
                     Case{"parallel-light", "sppm", {}}, Case{"point-over-plane", "pppm", {}}, Case{"point-over-plane", "sppm", {}},
+                    Case{"collimated-beam", "pppm", {{"radius", "0.05"}, {"direct", "photons"}}}, Case{"collimated-beam", "pppm", {{"radius", "0.05"}}},
                     Case{"sphere-light", "pppm", {}}, Case{"sphere-light", "sppm", {}}, Case{"glass-in-white", "pppm", {}}, Case{"glass-in-white", "sppm", {}},
                     Case{"orthographic-plane", "pppm", {}}, Case{"orthographic-plane", "sppm", {}}, Case{"glass-in-white", "cppm", {}}, Case{"glass-in-white", "appm", {}},
                     Case{"furnace", "appm", {{"radius", "0.1"}, {"direct", "photons"}}}, Case{"glass-in-white", "ppm", {}},
@@ -113,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"sphere-furnace", "photonmapper", {{"radius", "0.1"}}, 3e-4},
         Case{"sphere-furnace", "photonmapper", {{"radius", "0.1"}, {"final_gather", "false"}, {"photons", "65536"}}, 3e-4},
         Case{"parallel-light", "photonmapper", {}}, Case{"point-over-plane", "photonmapper", {}}, Case{"sphere-light", "photonmapper", {}},
-        Case{"glass-in-white", "photonmapper", {}},
+        Case{"glass-in-white", "photonmapper", {}}, Case{"collimated-beam", "photonmapper", {{"caustic_radius", "0.05"}}},
         Case{"parallel-light", "photonmapper", {{"caustic_radius", "0.2"}, {"direct", "photons"}, {"caustic_photons", "400000"}}},
         // The mean of 1 / area, and so of the sum over the k - 1 nearest.
         Case{"parallel-light", "photonmapper", {{"lookup", "nearest"}, {"nearest", "20"}, {"direct", "photons"}, {"caustic_photons", "800000"}}}),

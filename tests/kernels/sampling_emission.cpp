@@ -245,6 +245,17 @@ TEST_F(LightEmission, Projector)
     EXPECT_TRUE(is_uniform(counts, tests_in_file));
 }
 
+TEST_F(LightEmission, CollimatedIsOneRay)
+{
+    const CollimatedEmitter beam{{1, 2, 3}, {0, 0.6f, -0.8f}, {3, 0, 0}};
+    const Emission emission = emit(SceneBuilder().emitter(beam).shape(Sphere{{0, 0, 0}, 0.1f}).scene);
+    for (std::size_t i = 0; i < samples; i++) {
+        ASSERT_EQ(emission.rays[i].origin, beam.position);
+        ASSERT_EQ(emission.rays[i].direction, beam.direction);
+        ASSERT_EQ(emission.flux[i], beam.power);
+    }
+}
+
 // Several lights together: the mean is the sum of powers, channel by channel.
 TEST_F(LightEmission, SumsOverLights)
 {

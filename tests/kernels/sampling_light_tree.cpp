@@ -186,6 +186,20 @@ TEST_F(LightTree, NoLightThatShinesIsLeftOut)
     EXPECT_GT(dark, 5000u) << "lights that face away, or lie behind, are not chosen";
 }
 
+// A choice would be lost: no point sees it.
+TEST_F(LightTree, CollimatedBeamsAreNotChosen)
+{
+    SceneBuilder builder;
+    builder.shape(Sphere{{0, 0, -9}, 0.1f})
+        .emitter(CollimatedEmitter{{0, 0, 0}, {0, 0, 1}, {1000, 0, 0}})
+        .emitter(PointEmitter{{1, 0, 0}, {1, 1, 1}})
+        .emitter(PointEmitter{{0, 1, 0}, {1, 1, 1}});
+    const DeviceScene scene(device_, builder.scene, false, LightSelection::tree);
+    const std::vector<float> chance = chances(scene, {{0, 0, 4}, {0, 0, -1}, 0}, 3);
+    EXPECT_EQ(chance[0], 0.0f);
+    EXPECT_NEAR(chance[1] + chance[2], 1.0f, 1e-6f);
+}
+
 // A spot that does not fade: full light up to the cut-off's rim, where bounds are tight.
 TEST_F(LightTree, RimsOfSpotsAndEdgesOfHorizonsAreInside)
 {

@@ -89,6 +89,20 @@ TEST(ImportLights, WrongSpectraAreRefused)
     expect_refusal("<shape type=\"sphere\"><emitter type=\"directionalarea\"/></shape>", "behind a hole");
 }
 
+TEST(ImportLights, CollimatedBeams)
+{
+    const auto scene = load_with(R"(<emitter type="collimated"/><emitter type="collimated"><rgb name="power" value="1 2 3"/>
+        <transform name="to_world"><scale value="3"/><lookat origin="1 2 3" target="5 2 3" up="0 1 0"/></transform></emitter>)").scene;
+    const auto& standard = std::get<CollimatedEmitter>(scene.emitters.at(0).model);
+    EXPECT_EQ(standard.position, (Vec3{0, 0, 0}));
+    EXPECT_EQ(standard.direction, (Vec3{0, 0, 1}));
+    EXPECT_EQ(standard.power, (Vec3{1, 1, 1}));
+    const auto& placed = std::get<CollimatedEmitter>(scene.emitters.at(1).model);
+    expect_near(placed.position, {1, 2, 3}, 1e-6f);
+    expect_near(placed.direction, {1, 0, 0}, 1e-7f);
+    EXPECT_EQ(placed.power, (Vec3{1, 2, 3}));
+}
+
 #ifndef SUNDOG_MINIMAL
 // Two texels: (4, 0.5, 0.25), and one far beyond what half floats hold.
 const std::string bright_pfm =

@@ -100,7 +100,7 @@ TEST(ImportObj, MaterialsWithTextureCoordinatesAndWarnings)
         expect_complete(mesh_of(loaded, i));
     }
     expect_uv(mesh_of(loaded, 0).uvs[2], {0, 0}); // bare: the last corner, flipped
-    EXPECT_THAT(loaded.warnings, ElementsAre(HasSubstr("red.png"), HasSubstr("missing.mtl"), HasSubstr("material 'unheard of'")));
+    EXPECT_THAT(loaded.warnings, ElementsAre(HasSubstr("missing.mtl"), HasSubstr("material 'unheard of'"), HasSubstr("red.png")));
     const auto bare = folder.load(scene_with(shape + "<boolean name=\"load_materials\" value=\"false\"/></shape>"));
     EXPECT_EQ(bare.scene.shapes.size(), 2u);
 }

@@ -147,6 +147,30 @@ TEST(ImportTextures, WhatIsWrongIsSaid)
     expect_error(R"(<shape type="sphere"><bsdf type="twosided"><bsdf type="mask"><bsdf type="diffuse"/></bsdf></bsdf></shape>)", "transmits light cannot be twosided");
 }
 
+// map_Kd takes the place of Kd; a file that cannot be read leaves it. Two materials share one file's texels.
+TEST(ImportTextures, ObjMaterialsHaveImages)
+{
+    const SceneFolder folder;
+    folder.write("a.ppm", two_texels);
+    folder.write("m.mtl", "newmtl painted\nKd 0 0 0\nmap_Kd a.ppm\nnewmtl edged\nmap_Kd -clamp on .\\a.ppm\nnewmtl lost\nKd .1 .2 .3\nmap_Kd no.png\n"
+                          "newmtl moved\nmap_Kd -s 2 1 1 a.ppm\n");
+    folder.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl painted\nf 1/1 2/2 3/3\nusemtl edged\nf 1/1 2/2 3/3\n"
+                          "usemtl lost\nf 1/1 2/2 3/3\nusemtl moved\nf 1/1 2/2 3/3\n");
+    const auto loaded = folder.load(scene_with(R"(<shape type="obj"><string name="filename" value="m.obj"/></shape>)"));
+    const auto reflectance = [&](std::size_t shape) {
+        return std::get<DiffuseBsdf>(loaded.scene.bsdfs.at(loaded.scene.shapes.at(shape).bsdf).model).reflectance;
+    };
+    const auto bitmap = [&](std::size_t shape) { return std::get<BitmapTexture>(loaded.scene.textures.at(reflectance(shape).texture.value()).model); };
+    EXPECT_EQ(reflectance(0).value, (Vec3{1, 1, 1}));
+    EXPECT_EQ(bitmap(0).wrap, WrapMode::repeat);
+    EXPECT_EQ(bitmap(1).wrap, WrapMode::clamp);
+    EXPECT_EQ(bitmap(0).image, bitmap(1).image);
+    EXPECT_EQ(bitmap(0).image->width, 2);
+    EXPECT_FALSE(reflectance(2).texture);
+    EXPECT_EQ(reflectance(2).value, (Vec3{0.1f, 0.2f, 0.3f}));
+    EXPECT_THAT(loaded.warnings, ::testing::ElementsAre(HasSubstr("'moved': only its diffuse"), AllOf(HasSubstr("no.png"), HasSubstr("'lost' takes its Kd"))));
+}
+
 } // namespace
 } // namespace sundog::testing
 

@@ -274,7 +274,8 @@ TEST(SceneWriter, LightsOfTheScene)
 <emitter type="constant"><blackbody name="radiance" temperature="5000K" scale="1e-9"/></emitter>
 <emitter type="spot"><transform name="to_world"><lookat origin="1, 2, 3" target=".2, .3, .4"/></transform><float name="cutoff_angle" value="33.3"/>
 <float name="beam_width" value="33.3"/></emitter><emitter type="directional"><vector name="direction" x="1" y="2" z=".3"/></emitter>
-<emitter type="directional"><transform name="to_world"><rotate x="1" angle="33"/></transform></emitter>)");
+<emitter type="directional"><transform name="to_world"><rotate x="1" angle="33"/></transform></emitter>
+<emitter type="collimated"><transform name="to_world"><lookat origin="1, 2, 3" target=".2, .3, .4"/></transform><rgb name="power" value=".1, 2, 3"/></emitter>)");
 }
 
 const std::string checkers = R"(type="checkerboard"><rgb name="color0" value=".9, .8, .7"/></texture>)";
