@@ -73,6 +73,8 @@ public:
 private:
     static void check(const Parameters& parameters)
     {
+        if (!parameters.text("save_map").empty() && !parameters.text("load_map").empty())
+            parameters.refuse("save_map", "photonmapper cannot take both save_map and load_map: maps that are loaded are in a file already");
         if (!parameters.boolean("precompute")) return;
         if (!parameters.boolean("final_gather"))
             parameters.refuse("precompute", "photonmapper's precompute=true is for gather rays: it cannot go with final_gather=false");
