@@ -15,17 +15,25 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* description_name = "photon maps";
 
-Json description_of(const TracedPhotons& map) { return {{"photons", map.photons.size()}, {"light_paths", map.light_paths}}; }
+Json description_of(const TracedPhotons& map)
+{
+    return {{"photons", map.photons.size()}, {"light_paths", map.light_paths}};
+}
 
-std::span<std::byte> bytes_of(std::vector<Photon>& photons) { return std::as_writable_bytes(std::span(photons)); }
+std::span<std::byte> bytes_of(std::vector<Photon>& photons)
+{
+    return std::as_writable_bytes(std::span(photons));
+}
 
 void check_origin(const CheckpointReader& reader, const Json& json, const PhotonMapOrigin& origin)
 {
-    if (json.at("version") != SUNDOG_VERSION) reader.refuse(fmt::format("is of sundog {}, this is {}", json.at("version").get<std::string>(), SUNDOG_VERSION));
+    if (json.at("version") != SUNDOG_VERSION)
+        reader.refuse(fmt::format("is of sundog {}, this is {}", json.at("version").get<std::string>(), SUNDOG_VERSION));
     if (json.at("scene") != origin.scene) reader.refuse("is of another scene, or the scene has changed since");
     for (const auto& [name, wanted] : origin.parameters) {
         const auto stored = json.at("parameters").at(name).get<std::string>();
-        if (!wanted.empty() && !stored.empty() && stored != wanted) reader.refuse(fmt::format("was made with {0}={1}, not {0}={2}: use -p {0}={1}", name, stored, wanted));
+        if (!wanted.empty() && !stored.empty() && stored != wanted)
+            reader.refuse(fmt::format("was made with {0}={1}, not {0}={2}: use -p {0}={1}", name, stored, wanted));
     }
 }
 

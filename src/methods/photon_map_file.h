@@ -13,7 +13,7 @@ namespace sundog
 
 // What photons depend on, as far as a map made for something else would be wrong.
 struct PhotonMapOrigin {
-    std::string scene; // light_fingerprint
+    std::string scene;                                           // light_fingerprint
     std::vector<std::pair<std::string, std::string>> parameters; // of the method; one that is empty was not asked for, and agrees with all
 };
 

@@ -17,7 +17,8 @@ constexpr double caustic_pixels = 4.0;
 constexpr double search_limit = 2.0;
 
 // N photons on a sphere of the scene's radius R: N r^2 / (4 R^2) of them lie within r. largest: of automatic radii.
-PhotonLookup make_lookup(const Parameters& parameters, const std::string& radius, float scene_radius, std::uint64_t light_paths, double largest)
+PhotonLookup make_lookup(const Parameters& parameters, const std::string& radius, float scene_radius, std::uint64_t light_paths,
+                         double largest)
 {
     PhotonLookup lookup;
     if (parameters.text("lookup") == "nearest") lookup.nearest = static_cast<uint>(parameters.integer("nearest"));
@@ -47,8 +48,9 @@ ParameterSpec global_photons_spec()
 ParameterSpec global_radius_spec()
 {
     ParameterSpec spec = radius_spec();
-    spec.description = "Radius of lookups in the global map, the largest one for nearest photons; 0: where light is even it finds 50 photons, or is twice "
-                       "what k of them need.";
+    spec.description =
+        "Radius of lookups in the global map, the largest one for nearest photons; 0: where light is even it finds 50 photons, or is twice "
+        "what k of them need.";
     return spec;
 }
 
@@ -70,14 +72,26 @@ ParameterSpec caustic_radius_spec()
 
 ParameterSpec lookup_spec()
 {
-    return {"lookup", ParameterType::choice, "radius", "", "What a lookup takes: all photons within the radius, or the nearest (Jensen 1996).", 0, 0,
+    return {"lookup",
+            ParameterType::choice,
+            "radius",
+            "",
+            "What a lookup takes: all photons within the radius, or the nearest (Jensen 1996).",
+            0,
+            0,
             {"radius", "nearest"}};
 }
 
 ParameterSpec nearest_spec()
 {
-    return {"nearest", ParameterType::integer, "50", "photons",
-            "k of lookup=nearest: the k - 1 photons that are nearer than the k-th count, over the area within it.", 2, 512, {}};
+    return {"nearest",
+            ParameterType::integer,
+            "50",
+            "photons",
+            "k of lookup=nearest: the k - 1 photons that are nearer than the k-th count, over the area within it.",
+            2,
+            512,
+            {}};
 }
 
 ParameterSpec relaxation_spec()
@@ -88,17 +102,32 @@ ParameterSpec relaxation_spec()
 
 ParameterSpec final_gather_spec()
 {
-    return {"final_gather", ParameterType::boolean, "true", "",
-            "Look light that diffuse surfaces have scattered up where a ray, one an iteration, gathers it; else at once (Jensen 1996).", 0, 0, {}};
+    return {"final_gather",
+            ParameterType::boolean,
+            "true",
+            "",
+            "Look light that diffuse surfaces have scattered up where a ray, one an iteration, gathers it; else at once (Jensen 1996).",
+            0,
+            0,
+            {}};
 }
 
 ParameterSpec precompute_spec()
 {
-    return {"precompute", ParameterType::boolean, "false", "",
-            "Let gather rays read irradiance that was computed ahead at every fourth photon (Christensen 1999); needs unbounded max_depth.", 0, 0, {}};
+    return {"precompute",
+            ParameterType::boolean,
+            "false",
+            "",
+            "Let gather rays read irradiance that was computed ahead at every fourth photon (Christensen 1999); needs unbounded max_depth.",
+            0,
+            0,
+            {}};
 }
 
-ParameterSpec save_map_spec() { return file_spec("save_map", "File to save the photon maps to; none: they are not saved."); }
+ParameterSpec save_map_spec()
+{
+    return file_spec("save_map", "File to save the photon maps to; none: they are not saved.");
+}
 
 ParameterSpec load_map_spec()
 {

@@ -77,13 +77,16 @@ public:
     {
         std::uint64_t maps = digest_.low();
         archive.value("photon maps", maps);
-        if (maps != digest_.low()) throw FileError("cannot resume, the photon maps are not those that the render began with; load those (-p load_map=FILE)");
+        if (maps != digest_.low())
+            throw FileError("cannot resume, the photon maps are not those that the render began with; load those (-p load_map=FILE)");
         pool_.serialize(archive);
     }
 
 private:
     static void check(const Parameters& parameters)
     {
+        if (!parameters.text("save_map").empty() && !parameters.text("load_map").empty())
+            parameters.refuse("save_map", "photonmapper cannot take both save_map and load_map: maps that are loaded are in a file already");
         if (!parameters.boolean("precompute")) return;
         if (!parameters.boolean("final_gather"))
             parameters.refuse("precompute", "photonmapper's precompute=true is for gather rays: it cannot go with final_gather=false");
@@ -98,7 +101,8 @@ private:
         light_paths_ += traced.light_paths;
         photons_stored_ += traced.photons.size();
         rays_ += traced.rays;
-        if (are_loaded_) digest_.append_field({reinterpret_cast<const char*>(traced.photons.data()), traced.photons.size() * sizeof(Photon)});
+        if (are_loaded_)
+            digest_.append_field({reinterpret_cast<const char*>(traced.photons.data()), traced.photons.size() * sizeof(Photon)});
     }
 
     RenderContext& context_;
@@ -118,11 +122,13 @@ const MethodRegistration registration({
     .title = "Photon mapping",
     .paper = "Jensen 1996, Eurographics Workshop on Rendering",
     .estimator_class = "biased",
-    .description = "Traces a global and a caustic photon map once, and looks light up in them, diffuse light by final gathering. Soft light without "
-                   "noise after few iterations; the maps' blur stays however long it renders.",
-    .parameters = {global_photons_spec(), global_radius_spec(), caustic_photons_spec(), caustic_radius_spec(), lookup_spec(), nearest_spec(),
-                   filter_kernel_spec(), relaxation_spec(), final_gather_spec(), precompute_spec(), save_map_spec(), load_map_spec(), direct_spec(),
-                   light_choice_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), iterations_spec()},
+    .description =
+        "Traces a global and a caustic photon map once, and looks light up in them, diffuse light by final gathering. Soft light without "
+        "noise after few iterations; the maps' blur stays however long it renders.",
+    .parameters = {global_photons_spec(), global_radius_spec(), caustic_photons_spec(), caustic_radius_spec(), lookup_spec(),
+                   nearest_spec(), filter_kernel_spec(), relaxation_spec(), final_gather_spec(), precompute_spec(), save_map_spec(), load_map_spec(),
+                   direct_spec(), light_choice_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(),
+                   iterations_spec()},
     .follows_motion = false,
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<PhotonMapping>(context, parameters);

@@ -16,9 +16,11 @@ constexpr std::size_t largest_batch = std::size_t(1) << 18;
 PhotonMapOrigin origin_of(const RenderContext& context, const Parameters& parameters)
 {
     PhotonMapOrigin origin{context.light_fingerprint(), {}};
-    for (const char* name : {"final_gather", "direct", "max_depth", "rr_depth"}) origin.parameters.emplace_back(name, parameters.text(name));
+    for (const char* name : {"final_gather", "direct", "max_depth", "rr_depth"})
+        origin.parameters.emplace_back(name, parameters.text(name));
     // As many as the file has, unless the user asks for a number.
-    for (const char* name : {"photons", "caustic_photons"}) origin.parameters.emplace_back(name, parameters.is_set(name) ? parameters.text(name) : "");
+    for (const char* name : {"photons", "caustic_photons"})
+        origin.parameters.emplace_back(name, parameters.is_set(name) ? parameters.text(name) : "");
     return origin;
 }
 
@@ -32,11 +34,12 @@ MapPhotons trace_map_photons(RenderContext& context, const Parameters& parameter
 {
     const std::size_t pixels = context.film.pixel_count();
     const bool next_event = parameters.text("direct") == "nee";
-    PhotonTracerSettings settings{light_path_count(parameters, pixels), path_rules(parameters), false, sampler_kind(parameters), PhotonsKept::scattered};
+    PhotonTracerSettings settings{light_path_count(parameters, pixels), path_rules(parameters), false, sampler_kind(parameters),
+                                  PhotonsKept::scattered};
     // What is gathered is all the light that arrives.
     if (parameters.boolean("final_gather")) settings.kept = PhotonsKept::all;
     MapPhotons maps{trace_photons(context, settings, 0), {}};
-    if (next_event && !context.scene.has_focusing_lobes() && !context.scene.has_collimated_lights()) return maps;
+    if (next_event && !context.scene.has_focused_light()) return maps;
     settings.kept = PhotonsKept::caustic;
     settings.direct_light_elsewhere = next_event;
     settings.paths = caustic_path_count(parameters, pixels);

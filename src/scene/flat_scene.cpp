@@ -157,6 +157,12 @@ void place(const Transform& to_world, Instance& instance)
     instance.translation = to_world.point({0, 0, 0});
 }
 
+bool has_focused_light(const FlatScene& flat)
+{
+    const auto is_collimated = [](const Light& light) { return light.type == LIGHT_COLLIMATED; };
+    return has_focusing_lobes(flat.bsdfs) || std::any_of(flat.lights.begin(), flat.lights.end(), is_collimated);
+}
+
 bool has_delta_lights(const FlatScene& flat)
 {
     return std::any_of(flat.lights.begin(), flat.lights.end(), [](const Light& light) { return LIGHT_IS_DELTA(light.type); });

@@ -62,6 +62,10 @@ void place(const Transform& to_world, Instance& instance);
 // Whether paths may start at a light that none can hit: points and directions.
 bool has_delta_lights(const FlatScene& flat);
 
+// Whether light may arrive that neither next-event estimation nor a diffuse surface brings: focused by a lobe that is not as
+// broad as a diffuse one, or collimated.
+bool has_focused_light(const FlatScene& flat);
+
 // Bit t is set where there are lights of type t: what kernels are specialised for.
 uint light_types(const FlatScene& flat);
 

@@ -48,8 +48,7 @@ DeviceScene::DeviceScene(Device& device, const Scene& scene, bool spectral, Ligh
     surface_options_ = sundog::surface_options(flat, spectral);
     has_delta_lights_ = sundog::has_delta_lights(flat);
     has_lobes_to_evaluate_ = sundog::has_lobes_to_evaluate(flat.bsdfs);
-    has_collimated_lights_ = (light_types(flat) >> LIGHT_COLLIMATED) & 1u;
-    has_focusing_lobes_ = sundog::has_focusing_lobes(flat.bsdfs);
+    has_focused_light_ = sundog::has_focused_light(flat);
     geometry_ = upload_geometry(device, bvh, flat.analytics, flat.globals);
     globals_ = geometry_.globals.read(0);
 #define UPLOAD(type, name) name = upload(device, flat.name, #name);

@@ -35,8 +35,7 @@ public:
 
     bool has_delta_lights() const { return has_delta_lights_; }               // see the function of that name
     bool has_lobes_to_evaluate() const { return has_lobes_to_evaluate_; } // the same
-    bool has_collimated_lights() const { return has_collimated_lights_; } // that no next-event estimation finds
-    bool has_focusing_lobes() const { return has_focusing_lobes_; }       // the same
+    bool has_focused_light() const { return has_focused_light_; }         // the same
 
     float radius() const { return bounds_.radius(); } // of the bounding sphere
     const Bounds& bounds() const { return bounds_; }
@@ -53,8 +52,7 @@ private:
     BuildOptions surface_options_;
     bool has_delta_lights_;
     bool has_lobes_to_evaluate_;
-    bool has_collimated_lights_;
-    bool has_focusing_lobes_;
+    bool has_focused_light_;
     GeometryBuffers geometry_;
 #define AS_BUFFER(type, name) Buffer<type> name;
     SURFACE_ARRAYS(AS_BUFFER)

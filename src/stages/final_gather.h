@@ -13,7 +13,8 @@ public:
 
     // Sends one ray from each point where `visible` asks for photons, as left by its trace() of the same camera, pool and
     // key; leaves a query of the given radius (scene units) where it arrives, through specular and narrow lobes if need be.
-    void trace(const DeviceScene& scene, const CameraPaths& camera, const QueryTracer& visible, PathPool& pool, SamplerKey key, float radius);
+    void trace(const DeviceScene& scene, const CameraPaths& camera, const QueryTracer& visible, PathPool& pool, SamplerKey key,
+               float radius);
 
     Buffer<GatherQuery> queries; // by path; radius 0 where there is none
     Buffer<LobeRecord> lobes;    // by path, where the query evaluates one

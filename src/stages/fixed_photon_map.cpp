@@ -7,8 +7,7 @@ namespace sundog
 
 FixedPhotonMap::FixedPhotonMap(Device& device, const DeviceScene& scene, std::size_t capacity, const PhotonLookup& lookup,
                                const std::vector<Photon>& photons, std::uint64_t light_paths)
-    : lookup_(lookup), inverse_paths_(1.0f / static_cast<float>(light_paths)),
-      map_(device, scene.bounds()),
+    : lookup_(lookup), inverse_paths_(1.0f / static_cast<float>(light_paths)), map_(device, scene.bounds()),
       gather_(device, capacity, "estimators/radiance_estimate.h", lookup.density_kernel,
               scene.has_lobes_to_evaluate() ? std::optional(scene.surface_options()) : std::nullopt, lookup.nearest > 0),
       add_gathered_(device, "add_gathered", "Add gathered light")
@@ -32,7 +31,8 @@ void FixedPhotonMap::add_radiance(Buffer<GatherQuery>& queries, const Buffer<Lob
     if (lookup_.nearest > 0)
         set_radii_(count, map_.grid(), map_.cell_ends(), map_.cell_ends_offset(), map_.streams(), lookup_.usual_radius, lookup_.radius,
                    count, queries);
-    else set_radii_(count, lookup_.radius, count, queries);
+    else
+        set_radii_(count, lookup_.radius, count, queries);
     gather_.gather(map_, queries, lobes, count);
     add_gathered_(count, queries, gather_.sums, count, inverse_paths_, radiance);
 }

@@ -59,8 +59,8 @@ TEST_P(FinalGatherStages, DoAsPlainCode)
                 return;
             }
             Buffer<GatherQuery> cleared = upload(std::vector<GatherQuery>(count, GatherQuery{}));
-            shade_(items, scene_.surfaces(), key_, rules(), width, height, radius, hits_, active_, active_count_, rays_, paths_, cleared, lobes,
-                   flags_);
+            shade_(items, scene_.surfaces(), key_, rules(), width, height, radius, hits_, active_, active_count_, rays_, paths_, cleared,
+                   lobes, flags_);
             got = cleared.download();
         },
         [&](std::size_t item, uint path, const PlainVertex& vertex) {

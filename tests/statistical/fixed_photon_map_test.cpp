@@ -14,7 +14,8 @@ using namespace sundog;
 using namespace sundog::test;
 using std::numbers::pi;
 
-namespace {
+namespace
+{
 
 // A point light of intensity 1 at height 1 over a plane.
 Scene lamp_over_plane()
@@ -46,7 +47,8 @@ double blurred_irradiance(int kernel, double radius)
     return sum;
 }
 
-class LampOverPlane : public testing::Test {
+class LampOverPlane : public testing::Test
+{
 protected:
     static constexpr std::size_t light_paths = 200'000;
     static constexpr int maps = 12;
@@ -57,7 +59,8 @@ protected:
         std::vector<double> values;
         for (const auto& of_one_map : photons) {
             FixedPhotonMap map(device_, scene_, 1, lookup, of_one_map, light_paths);
-            Buffer<GatherQuery> query(device_, std::vector{GatherQuery{{0, 0, 0}, 1.0f, {1, 1, 1}, UNBOUNDED_DEPTH, {0, 0, 1}, 0}}, "query");
+            Buffer<GatherQuery> query(device_, std::vector{GatherQuery{{0, 0, 0}, 1.0f, {1, 1, 1}, UNBOUNDED_DEPTH, {0, 0, 1}, 0}},
+                                      "query");
             Buffer<Vec3> result(device_, std::vector{Vec3{0, 0, 0}}, "result");
             map.add_radiance(query, Buffer<LobeRecord>(device_, 1, "lobes"), result);
             values.push_back(result.read(0).x);
@@ -83,7 +86,8 @@ protected:
 
 TEST_F(LampOverPlane, EstimatesAreTheMeanUnderTheKernel)
 {
-    EXPECT_NEAR(blurred_irradiance(0, 0.5), 2.0 / 0.25 * (1.0 - 1.0 / std::sqrt(1.25)), 1e-5) << "the disk's mean, (2 I h / r^2)(1 / h - 1 / sqrt(h^2 + r^2))";
+    EXPECT_NEAR(blurred_irradiance(0, 0.5), 2.0 / 0.25 * (1.0 - 1.0 / std::sqrt(1.25)), 1e-5)
+        << "the disk's mean, (2 I h / r^2)(1 / h - 1 / sqrt(h^2 + r^2))";
     const auto photons = trace_maps();
     const double quantile = student_quantile(maps - 1, 0.005 / 7);
     for (int kernel = 0; kernel < 6; ++kernel) {
@@ -91,7 +95,7 @@ TEST_F(LampOverPlane, EstimatesAreTheMeanUnderTheKernel)
         EXPECT_NEAR(found.mean, blurred_irradiance(kernel, 0.5), quantile * found.standard_error) << "kernel " << kernel;
         EXPECT_LT(found.standard_error, 0.005) << "kernel " << kernel;
     }
-    // A tenth of the photons is farther than the usual radius.
+    // k nearest photons: about as many as within the radius where the density at the foot holds them.
     const Estimate nearest = irradiance(photons, {2.0f, 2000, 0.1f, 0});
     const double radius = std::sqrt(2000.0 / (pi * light_paths / (4.0 * pi))); // where the density at the foot would hold
     EXPECT_NEAR(nearest.mean, blurred_irradiance(0, radius), quantile * nearest.standard_error + 0.002);
@@ -110,6 +114,23 @@ TEST_F(LampOverPlane, HalvingTheRadiusDividesTheBiasByFour)
     EXPECT_LT(error, 0.12);
 }
 
+// Irradiance read where it was computed instead of looked up where rays arrive: the same light, displaced by at most a photon's
+// distance, with the same seed and so the same noise of maps and rays.
+TEST(PrecomputedIrradiance, IsTheSameLight)
+{
+    const Scene scene = cornell_box(24);
+    const auto mean = [&](const char* precompute, std::uint64_t seed) {
+        return image_mean(render(scene, {"photonmapper", 8, {{"precompute", precompute}, {"photons", "20000"}, {"radius", "0.1"}}}, seed));
+    };
+    std::vector<double> ratios;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) ratios.push_back(mean("true", seed) / mean("false", seed));
+    const Estimate ratio = estimate_from(ratios);
+    // Places in the corners are of photons on both walls, whose disks lose their light as those of the lookups do.
+    EXPECT_NEAR(ratio.mean, 1.0, 0.01);
+    EXPECT_LT(ratio.standard_error, 0.003);
+    EXPECT_NE(ratios[0], 1.0);
+}
+
 // With light reflected at most so often, in a ball that is lit all over: L_e (1 - rho^D) / (1 - rho).
 TEST(FixedMapSeries, DepthBoundCutsTheSeries)
 {
@@ -117,7 +138,10 @@ TEST(FixedMapSeries, DepthBoundCutsTheSeries)
         for (int depth : {0, 1, 2, 3, 4}) {
             const RenderRequest request{"photonmapper",
                                         8,
-                                        {{"max_depth", std::to_string(depth)}, {"sampler", "independent"}, {"radius", "0.1"}, {"photons", "16384"},
+                                        {{"max_depth", std::to_string(depth)},
+                                         {"sampler", "independent"},
+                                         {"radius", "0.1"},
+                                         {"photons", "16384"},
                                          {"final_gather", final_gather ? "true" : "false"}}};
             const Estimate estimate = estimate_image_mean(load_test_scene("analytic/sphere-furnace.xml"), request, 8);
             const double answer = (1.0 - std::pow(0.8, depth)) / (1.0 - 0.8);
