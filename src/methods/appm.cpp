@@ -17,8 +17,6 @@ namespace
 
 // Radii lie between a twentieth of the global schedule's and the schedule's own.
 constexpr double smallest_share = 0.05;
-// Laplacians need wider disks: at twice the largest radius their noise does not keep radii below it where light is even.
-constexpr double wide_disk = 2.0;
 
 class AdaptiveProgressivePhotonMapping final : public Method
 {
@@ -39,7 +37,8 @@ public:
     {
         const uint count = static_cast<uint>(pass_.pixels());
         const double done = static_cast<double>(iteration + 1);
-        pass_.trace(iteration, static_cast<float>(wide_disk * pass_.first_radius() * std::pow(done, -0.1)));
+        // Laplacians need wider disks: at twice the largest radius their noise does not keep radii below it where light is even.
+        pass_.trace(iteration, laplacian_radius(pass_.first_radius(), iteration));
         pass_.gather_photons(gather_errors_);
 
         set_query_radii_(count, pixels_, count, pass_.queries.queries);
