@@ -22,10 +22,10 @@ SHARED_SIZE(PathState, 32);
 #define PATH_FROM_DELTA_LIGHT 1u
 // Dispersion has left the path one of its three wavelengths (kernels/scene/dispersion.h).
 #define PATH_ONE_WAVELENGTH 2u
-// A light path that a lobe has scattered which is neither specular nor narrow.
-#define PATH_SCATTERED_BROADLY 8u
 // From a single ray of light, which next-event estimation does not find either.
 #define PATH_FROM_COLLIMATED_LIGHT 4u
+// A light path that a lobe has scattered which is neither specular nor narrow.
+#define PATH_SCATTERED_BROADLY 8u
 
 // max_depth: most edges of a whole path from light to camera, UNBOUNDED_DEPTH for no bound.
 // rr_depth: Russian roulette starts at this vertex.

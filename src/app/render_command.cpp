@@ -229,6 +229,8 @@ ProgressGoal goal_of(const RenderSession& session, const RenderPlan& plan)
 {
     ProgressGoal goal{plan.iterations, plan.seconds, session.iterations_done(), std::nullopt};
     // The error of photon maps falls as N^(-1/3), a square root of N^(-2/3) (docs/errors.md).
+    if (plan.target_error && session.method().estimator_class == "biased" && !goal.iterations && !goal.seconds)
+        throw UsageError(fmt::format("{} keeps a bias however long it renders, and may never reach --target-error; give -n or -t as well", session.method().name));
     if (plan.target_error) goal.error = ErrorGoal{*plan.target_error, session.method().estimator_class == "unbiased" ? 1.0 / 2 : 1.0 / 3};
     if (!goal.iterations && !goal.seconds && !goal.error) goal.iterations = session.requested_iterations();
     return goal;

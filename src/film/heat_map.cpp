@@ -37,7 +37,7 @@ bool displayable(MapColor color)
 MapColor map_color(double value)
 {
     constexpr double darkest = 0.18, lightest = 0.95;
-    constexpr double first_hue = -95.0, last_hue = 105.0; // degrees: blue, by way of violet and red, to yellow
+    constexpr double first_hue = -95.0, last_hue = 105.0; // degrees: blue, by way of purple and orange, to yellow
     const double v = std::clamp(value, 0.0, 1.0);
     const double lightness = darkest + (lightest - darkest) * v;
     const double hue = (first_hue + (last_hue - first_hue) * v) * std::numbers::pi / 180.0;
@@ -63,7 +63,7 @@ Image heat_map(const Image& image)
 
 std::string heat_map_legend()
 {
-    return fmt::format("relative error bound from {:g} (dark blue) by factors of 10 (violet, red) to {:g} and more (light yellow)",
+    return fmt::format("relative error bound from {:g} (dark blue) by factors of 10 (purple, orange) to {:g} and more (light yellow)",
                        heat_map_least, heat_map_most);
 }
 

@@ -8,7 +8,7 @@
 namespace sundog
 {
 
-// Linear sRGB of a value in [0, 1]: from dark blue through red to light yellow. Lightness (of OKLab, Ottosson 2020) grows
+// Linear sRGB of a value in [0, 1]: from dark blue by way of purple and orange to light yellow. Lightness (of OKLab, Ottosson 2020) grows
 // in proportion, so that equal steps look equal, in grey as well.
 struct MapColor {
     float r, g, b;

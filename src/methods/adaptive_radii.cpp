@@ -15,14 +15,12 @@ namespace
 
 // Radii lie between a twentieth of the global schedule's and the schedule's own.
 constexpr double smallest_share = 0.05;
-// Laplacians need wider disks: at twice the largest radius their noise does not keep radii below it where light is even.
-constexpr double wide_disk = 2.0;
 
 class AdaptiveRadii final : public RadiusPolicy
 {
 public:
     AdaptiveRadii(RenderContext& context, const Parameters& parameters)
-        : first_radius_(first_radius(context, parameters)), kernel_(density_kernel(parameters)),
+        : context_(context), first_radius_(first_radius(context, parameters)), kernel_(density_kernel(parameters)),
           gather_(make_gather(context, "estimators/radiance_estimate.h", kernel_)),
           gather_errors_(make_gather<ErrorSum>(context, "estimators/error_estimate.h")),
           set_query_radii_(context.device, "set_query_radii", "Set query radii", BuildOptions{{{"PIXEL_STATISTICS", "AdaptivePixel"}}, {}}),
@@ -32,17 +30,18 @@ public:
         if (context.film.errors) bias_.emplace(context);
     }
 
-    float widest(std::uint64_t iteration) const override
-    {
-        return static_cast<float>(wide_disk * first_radius_ * std::pow(static_cast<double>(iteration + 1), -0.1));
-    }
+    // Laplacians need wider disks: at twice the largest radius their noise does not keep radii below it where light is even.
+    float widest(std::uint64_t iteration) const override { return laplacian_radius(first_radius_, iteration); }
 
     void estimate(PhotonPass& pass, std::uint64_t iteration) override
     {
         const uint count = static_cast<uint>(pass.pixels());
         pass.gather_photons(gather_errors_); // queries are born with the widest radius
         set_query_radii_(count, pixels_, count, pass.queries.queries);
-        if (bias_) bias_->add(pass.queries.queries, gather_errors_.sums, {kernel_, pass.inverse_paths()});
+        if (bias_) {
+            bias_->add(pass.queries.queries, gather_errors_.sums, {kernel_, pass.inverse_paths()});
+            context_.spectral.to_rgb(context_.film.errors->bias);
+        }
         pass.gather_photons(gather_);
         add_gathered_(count, pass.queries.queries, gather_.sums, count, pass.inverse_paths(), pass.camera.radiance);
         learn_radii_(count, pass.queries.queries, gather_errors_.sums, schedule(static_cast<double>(iteration + 1), pass.light_paths()), count, pixels_);
@@ -63,6 +62,7 @@ private:
                 static_cast<float>(smallest_share * largest)};
     }
 
+    RenderContext& context_;
     float first_radius_;
     int kernel_;
     PhotonGather<> gather_;

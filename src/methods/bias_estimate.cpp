@@ -18,6 +18,11 @@ constexpr float narrowest_disk = 1.5f;
 
 } // namespace
 
+float laplacian_radius(float first_radius, std::uint64_t iteration)
+{
+    return static_cast<float>(wide_disk * first_radius * std::pow(static_cast<double>(iteration) + 1.0, -0.1));
+}
+
 BiasEstimate::BiasEstimate(RenderContext& context, float first_radius)
     : first_radius_(first_radius), widen_queries_(context.device, "widen_queries", "Widen queries"), term_(context),
       laplacians_(make_gather<LaplacianSum>(context, "estimators/laplacian.h")),
@@ -25,20 +30,15 @@ BiasEstimate::BiasEstimate(RenderContext& context, float first_radius)
 {
 }
 
-float BiasEstimate::laplacian_radius(std::uint64_t iteration) const
-{
-    return static_cast<float>(wide_disk * first_radius_ * std::pow(static_cast<double>(iteration) + 1.0, -0.1));
-}
-
 float BiasEstimate::map_radius(std::uint64_t iteration, float radius) const
 {
-    return std::max(laplacian_radius(iteration), narrowest_disk * radius);
+    return std::max(laplacian_radius(first_radius_, iteration), narrowest_disk * radius);
 }
 
 void BiasEstimate::add(const PhotonMap& map, const QueryTracer& queries, std::uint64_t iteration, GatheredWith gathered_with)
 {
     const std::size_t count = wide_.size();
-    widen_queries_(count, queries.queries, static_cast<uint>(count), laplacian_radius(iteration), narrowest_disk, wide_);
+    widen_queries_(count, queries.queries, static_cast<uint>(count), laplacian_radius(first_radius_, iteration), narrowest_disk, wide_);
     laplacians_.gather(map, wide_, queries.lobes, count);
     term_.add(queries.queries, laplacians_.sums, gathered_with);
 }

@@ -13,6 +13,9 @@
 namespace sundog
 {
 
+// Radius of the Laplacians of an iteration, from 0.
+float laplacian_radius(float first_radius, std::uint64_t iteration);
+
 // What the radiance was gathered with.
 struct GatheredWith {
     int density_kernel = 0;     // n of (1 - t^2)^n
@@ -56,8 +59,6 @@ public:
     void add(const PhotonMap& map, const QueryTracer& queries, std::uint64_t iteration, GatheredWith gathered_with);
 
 private:
-    float laplacian_radius(std::uint64_t iteration) const;
-
     float first_radius_;
     Kernel widen_queries_;
     BiasTerm<LaplacianSum> term_;

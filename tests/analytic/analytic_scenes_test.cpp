@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"parallel-light", "pppm", {{"radius", "0.2"}, {"direct", "photons"}, {"photons", "32768"}}},
                     Case{"parallel-light", "sppm", {{"radius", "0.2"}, {"direct", "photons"}, {"photons", "32768"}}}, Case{"parallel-light", "pppm", {}},
                     Case{"parallel-light", "sppm", {}}, Case{"point-over-plane", "pppm", {}}, Case{"point-over-plane", "sppm", {}},
-                    Case{"collimated-beam", "pppm", {{"radius", "0.05"}, {"direct", "photons"}}}, Case{"collimated-beam", "pppm", {{"radius", "0.05"}}}, Case{"collimated-beam", "photonmapper", {{"caustic_radius", "0.05"}}},
+                    Case{"collimated-beam", "pppm", {{"radius", "0.05"}, {"direct", "photons"}}}, Case{"collimated-beam", "pppm", {{"radius", "0.05"}}},
                     Case{"sphere-light", "pppm", {}}, Case{"sphere-light", "sppm", {}}, Case{"glass-in-white", "pppm", {}}, Case{"glass-in-white", "sppm", {}},
                     Case{"orthographic-plane", "pppm", {}}, Case{"orthographic-plane", "sppm", {}}, Case{"glass-in-white", "cppm", {}}, Case{"glass-in-white", "appm", {}},
                     Case{"furnace", "appm", {{"radius", "0.1"}, {"direct", "photons"}}}, Case{"glass-in-white", "ppm", {}},

@@ -21,11 +21,14 @@ SMALL_TESTS = [
     "PhotonMapStage.Empty*",
     "FilmStage.FirstHits*",
     "FilmStage.Counts*",
+    "ErrorStage.Widens*",
+    "ErrorStage.WhatIsNot*",
     "ProgressiveStage.*",
     "-ProgressiveStage.FollowsTheRecurrence",
 ]
 
-METHODS = ["path", "ptracer", "pppm", "sppm", "photonmapper"]
+# Each with what it is asked for beside its image.
+METHODS = [["path"], ["ptracer"], ["pppm"], ["sppm"], ["photonmapper"], ["sppm", "--errors"], ["ppm", "--errors"], ["appm", "--errors"]]
 
 # A diffuse floor, a glass and a metal ball, every kind of area light and a point light.
 SCENE = """<scene version="3.0.0">
@@ -96,9 +99,9 @@ def check_render(executable, folder):
     with open(scene, "w", encoding="utf-8") as file:
         file.write(SCENE)
     clean = True
-    for method in METHODS:
-        command = [executable, "render", scene, "-m", method, "-n", "2", "-o", os.path.join(folder, method + ".pfm"), "-q"]
-        clean = check(method, command, folder) and clean
+    for method, *options in METHODS:
+        command = [executable, "render", scene, "-m", method, *options, "-n", "2", "-o", os.path.join(folder, method + ".pfm"), "-q"]
+        clean = check(" ".join([method, *options]), command, folder) and clean
     return clean
 
 

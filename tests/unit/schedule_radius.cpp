@@ -1,4 +1,5 @@
 // Radii of progressive methods: the closed schedule against its recurrence, and the automatic first radius.
+#include "methods/bias_estimate.h"
 #include "methods/standard_parameters.h"
 
 #include <gtest/gtest.h>
@@ -97,6 +98,20 @@ TEST(PixelFootprint, IsAPixelsWidthAtTheMiddleOfTheScene)
     camera.kind = CAMERA_PERSPECTIVE;
     camera.position = {0, 0, 0}; // inside: half the bounding sphere's radius away
     EXPECT_NEAR(pixel_footprint(camera, {{-1, -1, -1}, {1, 1, 1}}), 0.005f * std::sqrt(3.0f), 1e-6f);
+}
+
+// The variance of one Laplacian goes as h^-6. Radii as of an optimal schedule, i^(-1/6), would leave that of their mean as
+// it is; those of their own make it fall as n^-0.4.
+TEST(LaplacianRadius, LetsMeansOfLaplaciansConverge)
+{
+    const auto variance_of_mean = [](std::uint64_t n) {
+        double sum = 0.0;
+        for (std::uint64_t i = 0; i < n; i++) sum += std::pow(laplacian_radius(1.0f, i), -6.0);
+        return sum / (static_cast<double>(n) * static_cast<double>(n));
+    };
+    EXPECT_EQ(laplacian_radius(0.25f, 0), 0.5f);
+    EXPECT_NEAR(laplacian_radius(0.25f, 1023), 0.25, 1e-6);
+    EXPECT_NEAR(variance_of_mean(100'000) / variance_of_mean(1'000), std::pow(100.0, -0.4), 0.01);
 }
 
 } // namespace
