@@ -100,6 +100,8 @@ class ResumeMethods : public Resume, public testing::WithParamInterface<std::str
 
 class ResumePhotonMaps : public ResumeMethods {};
 
+class ResumeErrors : public ResumeMethods {};
+
 std::vector<std::string> method_names()
 {
     std::vector<std::string> names;
@@ -118,6 +120,14 @@ std::vector<std::string> photon_map_names()
 {
     std::vector<std::string> names = method_names();
     std::erase_if(names, [](const std::string& name) { return !has_parameter(name, "radius"); });
+    return names;
+}
+
+// Those that can tell their error.
+std::vector<std::string> error_names()
+{
+    std::vector<std::string> names = method_names();
+    std::erase_if(names, [](const std::string& name) { return find_method(name)->error_model == ErrorModel::none; });
     return names;
 }
 
@@ -162,7 +172,7 @@ TEST_P(ResumePhotonMaps, ResumedIsUninterruptedInAHashedGrid)
 }
 
 // The channels of errors are part of the image.
-TEST_P(ResumeMethods, ResumedIsUninterruptedWithErrors)
+TEST_P(ResumeErrors, ResumedIsUninterruptedWithErrors)
 {
     const RenderSettings settings = with_errors(settings_for(GetParam()));
     const Result whole = render_in_parts(settings, {total_iterations});
@@ -173,7 +183,7 @@ TEST_P(ResumeMethods, ResumedIsUninterruptedWithErrors)
 }
 
 // Asking for errors is no other render: pixels are the same but for rounding, since photons are summed in another order.
-TEST_P(ResumeMethods, ErrorsLeaveTheImageAlone)
+TEST_P(ResumeErrors, ErrorsLeaveTheImageAlone)
 {
     const Result plain = render_in_parts(settings_for(GetParam()), {3}), asked = render_in_parts(with_errors(settings_for(GetParam())), {3});
     const std::size_t pixels = 27 * 27, channels = plain.pixels.size() / pixels, more = asked.pixels.size() / pixels;
@@ -191,6 +201,7 @@ TEST_P(ResumeMethods, AnotherPartIsAnotherImage)
 
 INSTANTIATE_TEST_SUITE_P(Methods, ResumeMethods, testing::ValuesIn(method_names()), [](const auto& method) { return method.param; });
 INSTANTIATE_TEST_SUITE_P(Methods, ResumePhotonMaps, testing::ValuesIn(photon_map_names()), [](const auto& method) { return method.param; });
+INSTANTIATE_TEST_SUITE_P(Methods, ResumeErrors, testing::ValuesIn(error_names()), [](const auto& method) { return method.param; });
 
 TEST_F(Resume, SecondsAddUp)
 {
