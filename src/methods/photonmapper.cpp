@@ -4,6 +4,7 @@
 // average camera paths; the maps' blur and noise stay.
 #include "base/errors.h"
 #include "base/hash.h"
+#include "methods/importons.h"
 #include "methods/light_pass.h"
 #include "methods/method.h"
 #include "methods/photon_map_parameters.h"
@@ -86,7 +87,11 @@ private:
     static void check(const Parameters& parameters)
     {
         if (!parameters.text("save_map").empty() && !parameters.text("load_map").empty())
-            parameters.refuse("save_map", "photonmapper cannot take both save_map and load_map: maps that are loaded are in a file already");
+            parameters.refuse("save_map",
+                              "photonmapper cannot take both save_map and load_map: maps that are loaded are in a file already");
+        if (parameters.integer("importons") > 0 && !parameters.text("load_map").empty())
+            parameters.refuse("importons",
+                              "photonmapper cannot take both importons and load_map: importons choose among photons that are traced");
         if (!parameters.boolean("precompute")) return;
         if (!parameters.boolean("final_gather"))
             parameters.refuse("precompute", "photonmapper's precompute=true is for gather rays: it cannot go with final_gather=false");
@@ -126,9 +131,9 @@ const MethodRegistration registration({
         "Traces a global and a caustic photon map once, and looks light up in them, diffuse light by final gathering. Soft light without "
         "noise after few iterations; the maps' blur stays however long it renders.",
     .parameters = {global_photons_spec(), global_radius_spec(), caustic_photons_spec(), caustic_radius_spec(), lookup_spec(),
-                   nearest_spec(), filter_kernel_spec(), relaxation_spec(), final_gather_spec(), precompute_spec(), save_map_spec(), load_map_spec(),
-                   direct_spec(), light_choice_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(),
-                   iterations_spec()},
+                   nearest_spec(), filter_kernel_spec(), relaxation_spec(), final_gather_spec(), precompute_spec(), importons_spec(), save_map_spec(),
+                   load_map_spec(), direct_spec(), light_choice_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"),
+                   sampler_spec(), iterations_spec()},
     .follows_motion = false,
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<PhotonMapping>(context, parameters);

@@ -1,6 +1,7 @@
 #include "methods/traced_photons.h"
 
 #include "base/atomic_file.h"
+#include "methods/importons.h"
 #include "methods/photon_map_file.h"
 #include "methods/standard_parameters.h"
 
@@ -38,18 +39,21 @@ MapPhotons trace_map_photons(RenderContext& context, const Parameters& parameter
                                   PhotonsKept::scattered};
     // What is gathered is all the light that arrives.
     if (parameters.boolean("final_gather")) settings.kept = PhotonsKept::all;
-    MapPhotons maps{trace_photons(context, settings, 0), {}};
+    std::uint64_t importon_rays = 0;
+    const std::unique_ptr<ImportanceMap> importance = trace_importons(context, parameters, importon_rays);
+    MapPhotons maps{trace_photons(context, settings, 0, importance.get()), {}};
+    maps.global.rays += importon_rays;
     if (next_event && !context.scene.has_focused_light()) return maps;
     settings.kept = PhotonsKept::caustic;
     settings.direct_light_elsewhere = next_event;
     settings.paths = caustic_path_count(parameters, pixels);
-    maps.caustic = trace_photons(context, settings, 1);
+    maps.caustic = trace_photons(context, settings, 1, importance.get());
     return maps;
 }
 
 } // namespace
 
-TracedPhotons trace_photons(RenderContext& context, PhotonTracerSettings settings, uint map_number)
+TracedPhotons trace_photons(RenderContext& context, PhotonTracerSettings settings, uint map_number, ImportanceMap* importance)
 {
     TracedPhotons traced;
     const std::size_t batches = (settings.paths + largest_batch - 1) / largest_batch;
@@ -60,7 +64,8 @@ TracedPhotons trace_photons(RenderContext& context, PhotonTracerSettings setting
         // Batches continue the points of one sequence; above 2^32 another begins (kernels/math/sampler.h).
         const SamplerKey key = sampler_key(context.seed, (static_cast<std::uint64_t>(map_number) << 32) + batch);
         const std::size_t stored = tracer.trace(context.scene, pool, key);
-        const std::vector<Photon> photons = tracer.photons().records().download(0, stored);
+        const std::vector<Photon> photons =
+            importance ? importance->thin(tracer.photons(), stored, key) : tracer.photons().records().download(0, stored);
         traced.photons.insert(traced.photons.end(), photons.begin(), photons.end());
     }
     traced.light_paths = batches * settings.paths;

@@ -10,6 +10,8 @@
 namespace sundog
 {
 
+class ImportanceMap;
+
 struct TracedPhotons {
     std::vector<Photon> photons;   // in the order of their batches, bounces and paths
     std::uint64_t light_paths = 0; // emitted: settings.paths, or a few more
@@ -17,8 +19,8 @@ struct TracedPhotons {
 };
 
 // Light paths in batches of equal size, so that memory does not grow with their number. Maps of one render that are to be
-// independent of each other have different numbers.
-TracedPhotons trace_photons(RenderContext& context, PhotonTracerSettings settings, uint map_number);
+// independent of each other have different numbers. With `importance` only the photons that survive by it are returned.
+TracedPhotons trace_photons(RenderContext& context, PhotonTracerSettings settings, uint map_number, ImportanceMap* importance = nullptr);
 
 // What the maps of photonmapper hold. Without caustic map: nothing in the scene focuses light.
 struct MapPhotons {

@@ -131,6 +131,35 @@ TEST(PrecomputedIrradiance, IsTheSameLight)
     EXPECT_NE(ratios[0], 1.0);
 }
 
+// A camera that sees a corner of the box: fewer photons stay, and the light is the same in the mean.
+TEST(Importons, KeepTheMeanWithFewerPhotons)
+{
+    Scene scene = cornell_box(16);
+    scene.shapes.push_back(make_sphere({-.5f, -.6f, -.4f}, .3f, add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}})));
+    scene.sensor.position = {-.4f, -.5f, .3f};
+    scene.sensor.fov_x = .6f;
+    for (const char* final_gather : {"true", "false"}) {
+        RenderRequest all{"photonmapper",
+                          8,
+                          {{"photons", "8192"},
+                           {"radius", "0.1"},
+                           {"caustic_radius", "0.05"},
+                           {"final_gather", final_gather},
+                           {"sampler", "independent"}}};
+        RenderRequest important = all;
+        important.parameters["importons"] = "2000";
+        const Estimate x = estimate_image_mean(scene, all, 16), y = estimate_image_mean(scene, important, 16);
+        const double error = std::hypot(x.standard_error, y.standard_error);
+        EXPECT_NEAR(x.mean, y.mean, student_quantile(15, 0.005 / 2) * error);
+        EXPECT_LT(error, 0.04 * x.mean);
+        const auto stored = [&](const RenderRequest& request) {
+            RenderSession session(scene, shared_device(), {"photonmapper", request.parameters, 1, {}});
+            return static_cast<double>(session.statistics().counters.photons_stored);
+        };
+        EXPECT_LT(stored(important), (final_gather[0] == 't' ? 0.9 : 0.5) * stored(all)) << final_gather;
+    }
+}
+
 // With light reflected at most so often, in a ball that is lit all over: L_e (1 - rho^D) / (1 - rho).
 TEST(FixedMapSeries, DepthBoundCutsTheSeries)
 {

@@ -97,6 +97,21 @@ TEST(MethodParameters, wrong_values_in_a_scene_point_at_their_line)
     EXPECT_THAT([&] { Parameters("sppm", specs, {{"beta", {"1", where}}}); }, ThrowsMessage<SceneError>(HasSubstr("room.xml:12: sppm has no parameter")));
 }
 
+TEST(MethodParameters, file_names_are_taken_as_they_are)
+{
+    const std::vector<ParameterSpec> with_file = {{"map", ParameterType::file, "", "", "", 0, 0, {}}};
+    EXPECT_EQ(Parameters("m", with_file, {}).text("map"), "");
+    EXPECT_EQ(Parameters("m", with_file, {{"map", {"a folder/true 1.map", {}}}}).text("map"), "a folder/true 1.map");
+}
+
+TEST(MethodParameters, values_that_do_not_go_together_are_refused_where_they_were_set)
+{
+    EXPECT_THAT([] { command_line("alpha", "1").refuse("alpha", "not with this"); }, ThrowsMessage<UsageError>(HasSubstr("not with this")));
+    EXPECT_THAT([] { Parameters("sppm", specs, {{"alpha", {"1", {"room.xml", 12}}}}).refuse("alpha", "not with this"); },
+                ThrowsMessage<SceneError>(HasSubstr("room.xml:12: not with this")));
+    EXPECT_THAT([] { command_line("alpha", "1").refuse("radius", "not with this"); }, ThrowsMessage<UsageError>(HasSubstr("not with this")));
+}
+
 TEST(MethodParameters, a_wrong_default_is_a_bug)
 {
     EXPECT_THROW(Parameters("m", {{"n", ParameterType::integer, "x", "", "", 0, 10, {}}}, {}), std::logic_error);
