@@ -100,7 +100,7 @@ private:
     PathPool pool_;
     PhotonGather<> gather_;
     Kernel clear_radiance_;
-    Buffer<Vec3> radiance_; // of this iteration
+    Buffer<Vec3> radiance_;            // of this iteration
     std::optional<BiasEstimate> bias_; // where errors are asked for
     std::deque<HitPoints> hit_points_;
 };
