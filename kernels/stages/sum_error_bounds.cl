@@ -22,29 +22,25 @@ static inline float variance_of_mean(Sums sums, float n)
     return fmax(difference, 0.0f) / (n * n * (n - 1.0f));
 }
 
-static inline RelativeSquares channel_error(Sums film, Sums corrected, float n, float quantile)
+static inline void add_channel(RelativeSquares* total, Sums film, Sums corrected, float n, float quantile)
 {
     const float mean = (film.sum + film.sum_error) / n;
     const float bias = BIASED ? ((film.sum - corrected.sum) + (film.sum_error - corrected.sum_error)) / n : 0.0f;
     const float noise = variance_of_mean(film, n);
     const float bound = fabs(bias) + quantile * sqrt(BIASED ? variance_of_mean(corrected, n) : noise);
     const float weight = 1.0f / (mean * mean + RELATIVE_ERROR_OFFSET);
-    const RelativeSquares error = {bound * bound * weight, bias * bias * weight, noise * weight};
-    return error;
+    total->bound += bound * bound * weight;
+    total->bias += bias * bias * weight;
+    total->noise += noise * weight;
 }
 
-#define CHANNEL(pixel, c)                                                                                                                  \
-    {                                                                                                                                      \
-        (pixel).sum.c, (pixel).sum_error.c, (pixel).squares.c, (pixel).squares_error.c                                                     \
-    }
-#define ADD_CHANNEL(c)                                                                                                                     \
-    {                                                                                                                                      \
-        const Sums of_film = CHANNEL(with_bias, c), of_corrected = CHANNEL(without, c);                                                    \
-        const RelativeSquares error = channel_error(of_film, of_corrected, n, quantile);                                                   \
-        total.bound += error.bound;                                                                                                        \
-        total.bias += error.bias;                                                                                                          \
-        total.noise += error.noise;                                                                                                        \
-    }
+static inline Sums make_sums(float sum, float sum_error, float squares, float squares_error)
+{
+    const Sums sums = {sum, sum_error, squares, squares_error};
+    return sums;
+}
+
+#define CHANNEL(pixel, c) make_sums((pixel).sum.c, (pixel).sum_error.c, (pixel).squares.c, (pixel).squares_error.c)
 
 __kernel void sum_error_bounds(__global const FilmPixel* film, __global const FilmPixel* corrected, uint count, float n, float quantile,
                                uint items, __global RelativeSquares* restrict sums)
@@ -54,9 +50,9 @@ __kernel void sum_error_bounds(__global const FilmPixel* film, __global const Fi
     RelativeSquares total = {0.0f, 0.0f, 0.0f};
     for (uint index = item; index < count; index += items) {
         const FilmPixel with_bias = film[index], without = corrected[index];
-        ADD_CHANNEL(x)
-        ADD_CHANNEL(y)
-        ADD_CHANNEL(z)
+        add_channel(&total, CHANNEL(with_bias, x), CHANNEL(without, x), n, quantile);
+        add_channel(&total, CHANNEL(with_bias, y), CHANNEL(without, y), n, quantile);
+        add_channel(&total, CHANNEL(with_bias, z), CHANNEL(without, z), n, quantile);
     }
     sums[item] = total;
 }

@@ -45,6 +45,16 @@ std::string allowed_values(const ParameterSpec& spec)
     return fmt::format("{}, {:g} to {:g}", kind, spec.minimum, spec.maximum);
 }
 
+std::string known_errors(ErrorModel model)
+{
+    switch (model) {
+    case ErrorModel::variance: return "estimates its variance (--errors, --target-error)";
+    case ErrorModel::bias_and_variance: return "estimates its bias and variance (--errors, --target-error)";
+    case ErrorModel::none: break;
+    }
+    return "not estimated";
+}
+
 void print_table()
 {
     std::size_t width = 4;
@@ -58,7 +68,7 @@ void print_method(const MethodInfo& method)
 {
     std::cout << method.name << ": " << method.title << "\n";
     std::cout << "paper: " << method.paper << "\n";
-    std::cout << "estimator: " << method.estimator_class << "\n\n" << wrapped(method.description, 0);
+    std::cout << "estimator: " << method.estimator_class << "\nerrors: " << known_errors(method.error_model) << "\n\n" << wrapped(method.description, 0);
     std::cout << "\nparameters (-p NAME=VALUE, or in the scene's <integrator>):\n";
     for (const ParameterSpec& spec : method.parameters) {
         const std::string unit = spec.unit.empty() ? "" : ", " + spec.unit;

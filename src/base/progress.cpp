@@ -17,7 +17,9 @@ constexpr double redraw_interval = 0.1; // s
 constexpr double first_plain_line = 2.0;
 constexpr double second_plain_line = 5.0;
 constexpr double plain_interval = 10.0;
-constexpr int room_for_text = 60; // columns beside the bar, so that its width stays as the text grows
+// Columns beside the bar, so that its width stays as the text grows.
+constexpr int room_for_text = 60;
+constexpr int room_for_error = 24;
 
 std::string rate_text(double rate)
 {
@@ -101,7 +103,7 @@ void Progress::print_bar(const State& state)
 {
     const std::string text = fmt::format(" {:3.0f}%  {}", 100.0 * state.fraction, counts(state));
     std::string line;
-    if (const int width = std::min(columns_ - room_for_text, 40); width >= 10) {
+    if (const int width = std::min(columns_ - room_for_text - (goal_.error ? room_for_error : 0), 40); width >= 10) {
         const int filled = static_cast<int>(std::floor(state.fraction * width));
         line = "[" + std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(width - filled), '.') + "]";
     }

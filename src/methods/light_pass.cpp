@@ -12,9 +12,9 @@ LightPass::LightPass(RenderContext& context, const Parameters& parameters, bool 
 
 void LightPass::trace(PathPool& pool, SamplerKey key, float radius)
 {
-    const std::size_t stored = photons_.trace(scene_, pool, key);
-    map.build(photons_.photons(), stored, radius);
-    photons_stored_ += stored;
+    stored_ = photons_.trace(scene_, pool, key);
+    map.build(photons_.photons(), stored_, radius);
+    photons_stored_ += stored_;
 }
 
 void LightPass::serialize(StateArchive& archive)

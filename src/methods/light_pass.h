@@ -18,6 +18,9 @@ public:
     // Traces the light paths of one iteration in the pool and sorts their photons for queries of at most `radius`.
     void trace(PathPool& pool, SamplerKey key, float radius);
 
+    // Sorts the same photons for queries of at most another radius.
+    void sort_again(float radius) { map.build(photons_.photons(), stored_, radius); }
+
     std::size_t light_paths() const { return light_paths_; } // an iteration
     std::uint64_t photons_stored() const { return photons_stored_; }
     void serialize(StateArchive& archive);
@@ -26,6 +29,7 @@ private:
     const DeviceScene& scene_;
     std::size_t light_paths_;
     std::uint64_t photons_stored_ = 0;
+    std::size_t stored_ = 0; // in this iteration
     PhotonTracer photons_;
 
 public:

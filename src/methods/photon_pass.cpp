@@ -23,6 +23,7 @@ void PhotonPass::trace(std::uint64_t iteration, float radius)
     camera.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
     queries.trace(context_.scene, camera, pool_, key, radius);
     light_.trace(pool_, key, bias_ ? bias_->map_radius(iteration, radius) : radius);
+    radius_ = radius;
     iterations_++;
 }
 
@@ -31,6 +32,8 @@ void PhotonPass::estimate_bias(int density_kernel)
     if (!bias_) return;
     bias_->add(light_.map, queries, iterations_ - 1, {density_kernel, 1.0f / static_cast<float>(light_paths())});
     context_.spectral.to_rgb(context_.film.errors->bias);
+    // Sorting costs less than looking through wide cells, and the image stays what it is without errors to the last bit.
+    light_.sort_again(radius_);
 }
 
 void PhotonPass::serialize(StateArchive& archive)

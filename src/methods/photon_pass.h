@@ -21,8 +21,8 @@ public:
     // Traces both kinds of paths and builds the map for queries of at most `radius`.
     void trace(std::uint64_t iteration, float radius);
 
-    // To be called when the queries have the radii that they are answered with: adds the bias that their estimate by the
-    // kernel (1 - t^2)^density_kernel has to the film's error estimate, where there is one.
+    // To be called when the queries have the radii that they are answered with, before they are: adds the bias that their
+    // estimate by the kernel (1 - t^2)^density_kernel has to the film's error estimate, where there is one.
     void estimate_bias(int density_kernel);
 
     // Sums by query, in `gather.sums`.
@@ -42,6 +42,7 @@ private:
     RenderContext& context_;
     float first_radius_;
     std::uint64_t iterations_ = 0;
+    float radius_ = 0.0f; // of this iteration's queries at most
     LightPass light_;
     PathPool pool_;
     std::optional<BiasEstimate> bias_;

@@ -60,10 +60,10 @@ public:
     {
         light_.trace(pool_, sampler_key(context_.seed, iteration), bias_ ? bias_->map_radius(iteration, first_radius_) : first_radius_);
         const float inverse_paths = 1.0f / static_cast<float>(light_.light_paths() * hit_points_.size());
+        if (bias_) estimate_bias(iteration, inverse_paths);
         clear_radiance_(radiance_.size(), static_cast<uint>(radiance_.size()), radiance_);
         for (HitPoints& points : hit_points_) {
             points.statistics.set_radii(points.queries.queries);
-            if (bias_) bias_->add(light_.map, points.queries, iteration, {0, inverse_paths}); // 0: the uniform kernel
             gather_.gather(light_.map, points.queries.queries, points.queries.lobes, radiance_.size());
             points.statistics.update(points.queries.queries, gather_.sums, points.camera.radiance, inverse_paths, radiance_);
         }
@@ -94,6 +94,16 @@ public:
     }
 
 private:
+    // While the map is sorted for it.
+    void estimate_bias(std::uint64_t iteration, float inverse_paths)
+    {
+        for (HitPoints& points : hit_points_) {
+            points.statistics.set_radii(points.queries.queries);
+            bias_->add(light_.map, points.queries, iteration, {0, inverse_paths}); // 0: the uniform kernel
+        }
+        light_.sort_again(first_radius_);
+    }
+
     RenderContext& context_;
     float first_radius_;
     std::uint64_t iterations_ = 0;
@@ -101,7 +111,7 @@ private:
     PathPool pool_;
     PhotonGather<> gather_;
     Kernel clear_radiance_;
-    Buffer<Vec3> radiance_; // of this iteration
+    Buffer<Vec3> radiance_;            // of this iteration
     std::optional<BiasEstimate> bias_; // where errors are asked for
     std::deque<HitPoints> hit_points_;
 };

@@ -69,7 +69,7 @@ TEST_F(CliErrors, a_resumed_render_stops_where_the_uninterrupted_one_does)
     const int whole = iterations();
     ASSERT_GT(whole, 40);
     // Also where no question comes after as many iterations.
-    for (const int part : {3, 33, whole}) {
+    for (const int part : {33, whole - 1, whole}) {
         std::filesystem::remove(folder / "c");
         render({"-m", "sppm", "--errors", "-n", std::to_string(part), "--checkpoint", "c", "-o", "b.pfm"});
         render({"-m", "sppm", "--target-error", "0.01", "--checkpoint", "c", "--resume", "-o", "b.pfm", "--stats", "s.json"});

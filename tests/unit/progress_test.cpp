@@ -159,11 +159,13 @@ TEST(ProgressReport, an_error_that_falls_tells_when_it_is_small_enough)
     EXPECT_NEAR(after["fraction"].get<double>(), 0.5, 1e-9);
     EXPECT_NEAR(after["seconds_left"].get<double>(), 8.0, 1e-9);
 
-    std::ostringstream bar;
-    Progress drawn(ProgressMode::bar, {1000, std::nullopt, 0, ErrorGoal{0.05, 1.0 / 3}}, bar, 120);
-    drawn.set_error(10, 0.1);
-    drawn.update(20, 10.0);
-    EXPECT_THAT(bar.str(), HasSubstr(" 25%  20/1000 iterations, 2.00/s, 0:10, 0:30 left, error 0.1 of 0.05"));
+    for (const int columns : {80, 120}) {
+        std::ostringstream bar;
+        Progress drawn(ProgressMode::bar, {1000, std::nullopt, 0, ErrorGoal{0.05, 1.0 / 3}}, bar, columns);
+        drawn.set_error(10, 0.1);
+        drawn.update(20, 10.0);
+        EXPECT_THAT(bar.str(), HasSubstr(" 25%  20/1000 iterations, 2.00/s, 0:10, 0:30 left, error 0.1 of 0.05")) << columns;
+    }
 }
 
 TEST(ProgressReport, off_is_off)
