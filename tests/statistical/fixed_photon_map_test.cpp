@@ -153,7 +153,11 @@ TEST(Importons, KeepTheMeanWithFewerPhotons)
         EXPECT_NEAR(x.mean, y.mean, student_quantile(15, 0.005 / 2) * error);
         EXPECT_LT(error, 0.04 * x.mean);
         const auto stored = [&](const RenderRequest& request) {
-            RenderSession session(scene, shared_device(), {"photonmapper", request.parameters, 1, {}});
+            RenderSettings settings;
+            settings.method = "photonmapper";
+            settings.parameters = request.parameters;
+            settings.seed = 1;
+            RenderSession session(scene, shared_device(), settings);
             return static_cast<double>(session.statistics().counters.photons_stored);
         };
         EXPECT_LT(stored(important), (final_gather[0] == 't' ? 0.9 : 0.5) * stored(all)) << final_gather;
