@@ -39,7 +39,9 @@ __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rul
     const float3 throughput = unpack(path.throughput);
     const Hit hit = hits[index];
     flags[item] = PATH_ENDED;
+#if DIRECT_LIGHT
     shadow_rays[index].t_max = 0.0f;
+#endif
     queries[index].radius = 0.0f;
     if (path.depth > rules.max_depth) return;
 

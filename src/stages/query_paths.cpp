@@ -10,7 +10,7 @@ constexpr float narrow_query_share = 0.5f;
 } // namespace
 
 QueryTracer::QueryTracer(Device& device, const DeviceScene& scene, std::size_t capacity, PathRules rules, bool direct_light, SamplerKind sampler)
-    : queries(device, capacity, "gather queries"), lobes(device, scene.has_lobes_to_evaluate() ? capacity : 1, "query lobes"), rules_(rules), direct_light_(direct_light), shadow_(device, scene, capacity, true)
+    : queries(device, capacity, "gather queries"), lobes(device, scene.has_lobes_to_evaluate() ? capacity : 1, "query lobes"), rules_(rules), direct_light_(direct_light), shadow_(device, scene, direct_light ? capacity : 1, true)
 {
     BuildOptions options = scene.surface_options();
     use_sampler(options, sampler);
