@@ -25,7 +25,8 @@ public:
           gather_errors_(make_gather<ErrorSum>(context, "estimators/error_estimate.h")),
           set_query_radii_(context.device, "set_query_radii", "Set query radii", BuildOptions{{{"PIXEL_STATISTICS", "AdaptivePixel"}}, {}}),
           add_gathered_(context.device, "add_gathered", "Add gathered light"), learn_radii_(context.device, "learn_radii", "Learn radii"),
-          pixels_(context.device, std::vector<AdaptivePixel>(context.film.pixel_count(), {first_radius_ * first_radius_, 0, 0, 0, 0}), "adaptive pixels")
+          pixels_(context.device, std::vector<AdaptivePixel>(context.film.pixel_count(), {first_radius_ * first_radius_, 0, 0, 0, 0}),
+                  "adaptive pixels")
     {
         if (context.film.errors) bias_.emplace(context);
     }
@@ -44,7 +45,8 @@ public:
         }
         pass.gather_photons(gather_);
         add_gathered_(count, pass.queries.queries, gather_.sums, count, pass.inverse_paths(), pass.camera.radiance);
-        learn_radii_(count, pass.queries.queries, gather_errors_.sums, schedule(static_cast<double>(iteration + 1), pass.light_paths()), count, pixels_);
+        learn_radii_(count, pass.queries.queries, gather_errors_.sums, schedule(static_cast<double>(iteration + 1), pass.light_paths()),
+                     count, pixels_);
     }
 
     void serialize(StateArchive& archive) override { sundog::serialize(archive, "adaptive pixels", pixels_); }
@@ -54,12 +56,9 @@ private:
     {
         const double n = kernel_; // of (1 - t^2)^n
         const double largest = first_radius_ * std::pow(iterations_done + 1.0, -1.0 / 6);
-        return {static_cast<float>(iterations_done),
-                static_cast<float>(light_paths),
-                static_cast<float>(0.5 / (n + 2.0)),
-                static_cast<float>((n + 1.0) * (n + 1.0) / (std::numbers::pi * (2.0 * n + 1.0))),
-                static_cast<float>(largest),
-                static_cast<float>(smallest_share * largest)};
+        return {static_cast<float>(iterations_done), static_cast<float>(light_paths),
+                static_cast<float>(0.5 / (n + 2.0)), static_cast<float>((n + 1.0) * (n + 1.0) / (std::numbers::pi * (2.0 * n + 1.0))),
+                static_cast<float>(largest),         static_cast<float>(smallest_share * largest)};
     }
 
     RenderContext& context_;

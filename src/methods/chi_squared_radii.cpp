@@ -16,7 +16,8 @@ std::vector<TestThreshold> test_thresholds(double significance)
     std::vector<TestThreshold> thresholds;
     for (uint k = 0; k < TEST_THRESHOLDS; k++) {
         const double level = significance / ((k + 1.0) * (k + 2.0));
-        thresholds.push_back({static_cast<float>(chi_squared_quantile(level, DISK_BINS - 1)), static_cast<float>(chi_squared_quantile(level, RING_BINS - 1))});
+        thresholds.push_back({static_cast<float>(chi_squared_quantile(level, DISK_BINS - 1)),
+                              static_cast<float>(chi_squared_quantile(level, RING_BINS - 1))});
     }
     return thresholds;
 }
@@ -25,8 +26,8 @@ class ChiSquaredRadii final : public RadiusPolicy
 {
 public:
     ChiSquaredRadii(RenderContext& context, const Parameters& parameters)
-        : first_radius_(first_radius(context, parameters)), shrink_(static_cast<float>(parameters.real("shrink"))), kernel_(density_kernel(parameters)),
-          gather_(make_gather<BinnedSum>(context, "estimators/binned_radiance.h", kernel_)),
+        : first_radius_(first_radius(context, parameters)), shrink_(static_cast<float>(parameters.real("shrink"))),
+          kernel_(density_kernel(parameters)), gather_(make_gather<BinnedSum>(context, "estimators/binned_radiance.h", kernel_)),
           set_query_radii_(context.device, "set_query_radii", "Set query radii", BuildOptions{{{"PIXEL_STATISTICS", "TestedPixel"}}, {}}),
           test_photon_bins_(context.device, "test_photon_bins", "Test photon bins"),
           thresholds_(context.device, test_thresholds(parameters.real("significance")), "test thresholds"),
@@ -42,7 +43,8 @@ public:
         set_query_radii_(count, pixels_, count, pass.queries.queries);
         pass.estimate_bias(kernel_);
         pass.gather_photons(gather_);
-        test_photon_bins_(count, pass.queries.queries, gather_.sums, thresholds_, count, shrink_, pass.inverse_paths(), pixels_, pass.camera.radiance);
+        test_photon_bins_(count, pass.queries.queries, gather_.sums, thresholds_, count, shrink_, pass.inverse_paths(), pixels_,
+                          pass.camera.radiance);
     }
 
     void serialize(StateArchive& archive) override { sundog::serialize(archive, "tested pixels", pixels_); }
@@ -74,18 +76,39 @@ std::unique_ptr<RadiusPolicy> make_chi_squared_radii(RenderContext& context, con
 
 ParameterSpec significance_spec()
 {
-    return {"significance", ParameterType::real, "0.05", "",
-            "With chi_squared: probability with which evenly spread photons are taken for uneven ones, over all tests of the same photons (Lin et al. 2020).", 1e-9, 0.5, {}};
+    return {"significance",
+            ParameterType::real,
+            "0.05",
+            "",
+            "With chi_squared: probability with which evenly spread photons are taken for uneven ones, over all tests of the same photons "
+            "(Lin et al. 2020).",
+            1e-9,
+            0.5,
+            {}};
 }
 
 ParameterSpec shrink_spec()
 {
-    return {"shrink", ParameterType::real, "0.8", "", "With chi_squared: factor on the squared radius where a test fails (Lin et al. 2020, k).", 0.1, 0.99, {}};
+    return {"shrink",
+            ParameterType::real,
+            "0.8",
+            "",
+            "With chi_squared: factor on the squared radius where a test fails (Lin et al. 2020, k).",
+            0.1,
+            0.99,
+            {}};
 }
 
 ParameterSpec first_test_spec()
 {
-    return {"first_test", ParameterType::integer, "60", "photons", "With chi_squared: photons before a pixel's first test; 12 bins need about five each.", 12, 1e6, {}};
+    return {"first_test",
+            ParameterType::integer,
+            "60",
+            "photons",
+            "With chi_squared: photons before a pixel's first test; 12 bins need about five each.",
+            12,
+            1e6,
+            {}};
 }
 
 } // namespace sundog

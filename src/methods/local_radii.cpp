@@ -13,11 +13,13 @@ class LocalRadii final : public RadiusPolicy
 {
 public:
     LocalRadii(RenderContext& context, const Parameters& parameters)
-        : first_radius_(first_radius(context, parameters)), alpha_(static_cast<float>(parameters.real("alpha"))), kernel_(density_kernel(parameters)),
-          gather_(make_gather(context, "estimators/counted_radiance.h", kernel_)),
+        : first_radius_(first_radius(context, parameters)), alpha_(static_cast<float>(parameters.real("alpha"))),
+          kernel_(density_kernel(parameters)), gather_(make_gather(context, "estimators/counted_radiance.h", kernel_)),
           set_query_radii_(context.device, "set_query_radii", "Set query radii", BuildOptions{{{"PIXEL_STATISTICS", "CountedPixel"}}, {}}),
-          add_gathered_(context.device, "add_gathered", "Add gathered light"), shrink_radii_(context.device, "shrink_radii", "Shrink radii"),
-          pixels_(context.device, std::vector<CountedPixel>(context.film.pixel_count(), {first_radius_ * first_radius_, 0, 0}), "counted pixels")
+          add_gathered_(context.device, "add_gathered", "Add gathered light"),
+          shrink_radii_(context.device, "shrink_radii", "Shrink radii"),
+          pixels_(context.device, std::vector<CountedPixel>(context.film.pixel_count(), {first_radius_ * first_radius_, 0, 0}),
+                  "counted pixels")
     {
     }
 

@@ -44,7 +44,8 @@ void refuse_parameters_of_other_policies(const Parameters& parameters)
     for (const Policy& other : policies())
         for (const std::string& name : other.parameters)
             if (parameters.is_set(name) && !takes(policy, name))
-                parameters.refuse(name, fmt::format("{} means nothing with radius_policy={}; it belongs to radius_policy={}", name, policy.name, other.name));
+                parameters.refuse(name, fmt::format("{} means nothing with radius_policy={}; it belongs to radius_policy={}", name,
+                                                    policy.name, other.name));
 }
 
 std::unique_ptr<RadiusPolicy> make_radius_policy(RenderContext& context, const Parameters& parameters)
@@ -60,16 +61,24 @@ bool is_adaptive(const Parameters& parameters)
 
 ParameterSpec radius_policy_spec(const std::string& default_policy)
 {
-    return {"radius_policy", ParameterType::choice, default_policy, "",
-            "What radii follow from: nothing (fixed; biased); a schedule for all pixels (Knaus and Zwicker 2011); or each pixel's count of photons (local; Hachisuka et "
+    return {"radius_policy",
+            ParameterType::choice,
+            default_policy,
+            "",
+            "What radii follow from: nothing (fixed; biased); a schedule for all pixels (Knaus and Zwicker 2011); or each pixel's count of "
+            "photons (local; Hachisuka et "
             "al. 2008), bias and variance (adaptive; Kaplanyan and Dachsbacher 2013), or test of evenness (chi_squared; Lin et al. 2020).",
-            0, 0, {"fixed", "schedule", "local", "adaptive", "chi_squared"}};
+            0,
+            0,
+            {"fixed", "schedule", "local", "adaptive", "chi_squared"}};
 }
 
 std::vector<ParameterSpec> averaged_specs(const std::string& kernel, const std::string& policy)
 {
-    return {photons_spec(), radius_spec(), radius_policy_spec(policy), alpha_spec(), significance_spec(), shrink_spec(), first_test_spec(), kernel_spec(kernel),
-            direct_spec(), light_choice_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), spectral_spec(), iterations_spec()};
+    return {photons_spec(),      radius_spec(),       radius_policy_spec(policy), alpha_spec(),
+            significance_spec(), shrink_spec(),       first_test_spec(),          kernel_spec(kernel),
+            direct_spec(),       light_choice_spec(), max_depth_spec(),           rr_depth_spec(1, "light subpaths, by albedo"),
+            sampler_spec(),      spectral_spec(),     iterations_spec()};
 }
 
 } // namespace sundog

@@ -17,14 +17,18 @@ public:
     {
     }
 
-    float widest(std::uint64_t iteration) const override { return static_cast<float>(scheduled_radius(first_radius_, alpha_, 2, iteration)); }
+    float widest(std::uint64_t iteration) const override
+    {
+        return static_cast<float>(scheduled_radius(first_radius_, alpha_, 2, iteration));
+    }
 
     // Queries are born with the widest radius.
     void estimate(PhotonPass& pass, std::uint64_t) override
     {
         pass.estimate_bias(kernel_);
         pass.gather_photons(gather_);
-        add_gathered_(pass.pixels(), pass.queries.queries, gather_.sums, static_cast<uint>(pass.pixels()), pass.inverse_paths(), pass.camera.radiance);
+        add_gathered_(pass.pixels(), pass.queries.queries, gather_.sums, static_cast<uint>(pass.pixels()), pass.inverse_paths(),
+                      pass.camera.radiance);
     }
 
 private:

@@ -61,8 +61,10 @@ std::unique_ptr<Method> make_sppm(RenderContext& context, const Parameters& para
     if (parameters.text("radius_policy") != "local") return make_averaged_photon_mapping(context, parameters);
     refuse_parameters_of_other_policies(parameters);
     if (parameters.text("kernel") != "uniform")
-        parameters.refuse("kernel", "sppm rescales the flux that it has found, which takes kernel=uniform; for another kernel choose pppm (-m pppm), with "
-                                    "radius_policy=local if need be");
+        parameters.refuse(
+            "kernel",
+            "sppm rescales the flux that it has found, which takes kernel=uniform; for another kernel choose pppm (-m pppm), with "
+            "radius_policy=local if need be");
     return std::make_unique<StochasticProgressivePhotonMapping>(context, parameters);
 }
 

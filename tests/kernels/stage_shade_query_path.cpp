@@ -34,7 +34,7 @@ protected:
                 const PlainOutcome expected = plain_query_vertex(plain_, vertex, rules(), direct_light, camera_numbers(path), doubt);
                 if (!is_certain(vertex, expected, doubt)) return;
                 expect_step(item, path, expected.next);
-                expect_shadow(path, expected.shadow, &got_shadow_radiance_[path]);
+                if (direct_light) expect_shadow(path, expected.shadow, &got_shadow_radiance_[path]);
                 expect_radiance(path, expected.radiance);
                 expect_query(path, vertex, expected, got[path], radius);
             });

@@ -27,7 +27,9 @@ RenderRequest request(const std::string& method, const std::string& policy, cons
     return r;
 }
 
-class RadiusPolicies : public testing::TestWithParam<std::string> {};
+class RadiusPolicies : public testing::TestWithParam<std::string>
+{
+};
 
 TEST_P(RadiusPolicies, AreTheSameInEveryMethod)
 {
@@ -60,7 +62,8 @@ TEST_P(RadiusPolicies, ResumedIsUninterrupted)
     const auto iterate = [](RenderSession& session, int count) {
         for (int i = 0; i < count; i++) session.iterate();
     };
-    RenderSession first(glass_box(), shared_device(), settings), second(glass_box(), shared_device(), settings), whole(glass_box(), shared_device(), settings);
+    RenderSession first(glass_box(), shared_device(), settings), second(glass_box(), shared_device(), settings),
+        whole(glass_box(), shared_device(), settings);
     iterate(first, 4);
     first.save_checkpoint(folder / "c");
     second.resume(folder / "c");
@@ -76,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(All, RadiusPolicies, testing::Values("fixed", "schedule
 // The flux that sppm rescales is not the mean of iterations.
 TEST(RadiusPolicy, SppmRescalesFlux)
 {
-    EXPECT_NE(render(glass_box(), request("sppm", "local", "uniform"), 3).pixels, render(glass_box(), request("pppm", "local", "uniform"), 3).pixels);
+    EXPECT_NE(render(glass_box(), request("sppm", "local", "uniform"), 3).pixels,
+              render(glass_box(), request("pppm", "local", "uniform"), 3).pixels);
 }
 
 } // namespace
