@@ -15,9 +15,8 @@ static inline float keep_run(PhotonRun run, const GatherQuery* query, __global c
     const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
     const float3 position = unpack(query->position);
     for (uint i = run.begin; i < run.end; i += 8u) {
-        const float8 x = load_stream(streams, PHOTON_X, stride, i) - position.x, y = load_stream(streams, PHOTON_Y, stride, i) - position.y,
-                     z = load_stream(streams, PHOTON_Z, stride, i) - position.z;
-        const float8 squares = x * x + y * y + z * z;
+        const Offset8 offset = photon_offsets(streams, stride, i, position);
+        const float8 squares = squared_lengths(offset);
         int8 mask = (squares < limit) & (lane < (int8)((int)(run.end - i)));
         if (!mask8(mask)) continue;
         mask &= wanted(as_uint8(load_stream(streams, PHOTON_NORMAL_DEPTH, stride, i)), query);

@@ -48,16 +48,15 @@ static inline float add_neighbours(PhotonRun run, const GatherQuery* self, float
     const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
     const float3 position = unpack(self->position);
     for (uint i = run.begin; i < run.end; i += 8u) {
-        const float8 x = load_stream(streams, PHOTON_X, stride, i) - position.x, y = load_stream(streams, PHOTON_Y, stride, i) - position.y,
-                     z = load_stream(streams, PHOTON_Z, stride, i) - position.z;
-        const float8 squares = x * x + y * y + z * z;
+        const Offset8 offset = photon_offsets(streams, stride, i, position);
+        const float8 squares = squared_lengths(offset);
         int8 mask = (squares < limit) & (squares > 0.0f) & (lane < (int8)((int)(run.end - i))); // itself is at 0
         if (!mask8(mask)) continue;
         mask &= wanted(as_uint8(load_stream(streams, PHOTON_NORMAL_DEPTH, stride, i)), self);
         float distance[8], u[8], v[8];
         vstore8(squares, 0, distance);
-        vstore8(x * frame.s.x + y * frame.s.y + z * frame.s.z, 0, u);
-        vstore8(x * frame.t.x + y * frame.t.y + z * frame.t.z, 0, v);
+        vstore8(offset.x * frame.s.x + offset.y * frame.s.y + offset.z * frame.s.z, 0, u);
+        vstore8(offset.x * frame.t.x + offset.y * frame.t.y + offset.z * frame.t.z, 0, v);
         for (int lanes = mask8(mask); lanes != 0; lanes &= lanes - 1) {
             const int k = first_lane(lanes);
             if (!(distance[k] < limit)) continue;
