@@ -48,9 +48,8 @@ static inline Estimate gather_run(PhotonRun run, const GatherQuery* query, const
     const float3 position = unpack(query->position);
     const float inverse_radius_squared = 1.0f / (query->radius * query->radius);
     for (uint i = run.begin; i < run.end; i += 8u) {
-        const Offset8 offset = {load_stream(streams, PHOTON_X, stride, i) - position.x, load_stream(streams, PHOTON_Y, stride, i) - position.y,
-                                load_stream(streams, PHOTON_Z, stride, i) - position.z};
-        const float8 t_squared = (offset.x * offset.x + offset.y * offset.y + offset.z * offset.z) * inverse_radius_squared;
+        const Offset8 offset = photon_offsets(streams, stride, i, position);
+        const float8 t_squared = squared_lengths(offset) * inverse_radius_squared;
         int8 mask = (t_squared < 1.0f) & (lane < (int8)((int)(run.end - i)));
         if (!mask8(mask)) continue;
         const uint8 normal_depth = as_uint8(load_stream(streams, PHOTON_NORMAL_DEPTH, stride, i));
