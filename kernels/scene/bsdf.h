@@ -146,6 +146,16 @@ static inline float bsdf_pdf_w(const Scattering* scattering, const Surface* surf
     }
 }
 
+// Density (1/sr) with which bsdf_sample, of a path that comes from `incoming`, chooses the outgoing direction.
+static inline float bsdf_reverse_pdf_w(const Scattering* scattering, const Surface* surface, float3 incoming)
+{
+    Scattering reverse = *scattering;
+    reverse.cos_o = dot(incoming, scattering->normal);
+    Surface seen = *surface;
+    seen.outgoing = incoming;
+    return bsdf_pdf_w(&reverse, &seen, surface->outgoing);
+}
+
 // Chooses where a path goes on. False: it is absorbed.
 static inline bool bsdf_sample(const Scattering* scattering, const Surface* surface, float4 u, int carries, BsdfSample* sample)
 {

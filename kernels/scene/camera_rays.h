@@ -122,6 +122,17 @@ static inline float camera_distance(const Camera* camera, float3 point)
     return is_orthographic(camera) ? dot(to_point, unpack(camera->axis_z)) : length(to_point);
 }
 
+// Density of a pixel's camera subpaths (1/m^2, across the ray) at a distance along one of its rays of the given unit
+// direction, which start at the near plane. The pixel filter counts as a box.
+static inline float camera_ray_pdf_a(const Camera* camera, float3 direction, float distance)
+{
+    const float cos_z = dot(direction, unpack(camera->axis_z));
+    const float on_film = 1.0f / (cos_z * film_pixel_area(camera));
+    if (is_orthographic(camera)) return on_film;
+    const float along_z = distance * cos_z + camera->near_clip;
+    return on_film / (along_z * along_z);
+}
+
 // How a point on the lens sees a point of the scene.
 typedef struct CameraConnection {
     float3 lens;       // on the aperture; orthographic without one: on the film, straight before the point

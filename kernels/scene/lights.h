@@ -22,6 +22,9 @@ typedef struct LightSample {
     Ray shadow_ray;   // from the surface's offset origin to just before the light
     float3 radiance;  // arriving radiance over pdf_w: times f |cos| it is the estimate
     float pdf_w;      // 1/sr, the light's choice included; PDF_DELTA for point-like lights
+    // Density of light subpaths here, 1/m^2 across the direction, if they choose the light's point (or direction) as this
+    // sample did: what weighs them against it.
+    float emission_ratio;
 } LightSample;
 
 // A light's emission times what its texture, if it has one, says at a surface: as transport computes with it.
@@ -138,6 +141,25 @@ static inline float3 projected_intensity(const SurfaceView* scene, const Light* 
     return fmax(fabs(place.x), fabs(place.y)) <= 1.0f ? emission / (cosine * cosine * cosine) : (float3)(0.0f);
 }
 
+// Density (1/sr) of the direction of a light subpath from a point, spot or projector.
+static inline float point_light_pdf_w(const SurfaceView* scene, const Light* light, float3 direction)
+{
+    if (light->type == LIGHT_POINT) return 0.25f * INV_PI_F;
+    const float cosine = dot(direction, unpack(light->direction));
+    if (light->type == LIGHT_SPOT) {
+        const float half_sin = sin(0.5f * light->cutoff_angle);
+        return 1.0f / (4.0f * PI_F * half_sin * half_sin);
+    }
+    const LightProjection projection = scene->light_projections[light->primitive]; // uniform on its image
+    return 1.0f / (4.0f * projection.half_width * projection.half_height * fmax(cosine * cosine * cosine, 1e-12f));
+}
+
+// Density (1/m^2) of where a light subpath from a distant light crosses the disk that its rays start on.
+static inline float distant_ray_pdf_a(const SurfaceView* scene)
+{
+    return INV_PI_F / (scene->globals->radius * scene->globals->radius);
+}
+
 static inline Ray segment(float3 from, float3 to)
 {
     Ray ray;
@@ -191,6 +213,7 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
             sample->pdf_w = probability / (2.0f * PI_F * one_minus_cos);
             sample->shadow_ray = segment_to(surface, direction, &point);
             sample->radiance = light_point_radiance(scene, light, &point) / sample->pdf_w;
+            sample->emission_ratio = light->probability / (light->area * PI_F * sample->pdf_w);
             return true;
         }
     }
@@ -203,6 +226,7 @@ static inline bool sample_area_light(const SurfaceView* scene, const Surface* su
     sample->pdf_w = pdf_w_from_a(probability / light->area, distance_squared, cos_at_light);
     sample->radiance = light_point_radiance(scene, light, &point) / sample->pdf_w;
     sample->shadow_ray = segment_to(surface, sample->direction, &point);
+    sample->emission_ratio = light->probability / (light->area * PI_F * sample->pdf_w); // p_point cos / pi (d^2 / cos pdf_w) / d^2
     return true;
 }
 
@@ -227,6 +251,7 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
         sample->radiance = intensity / (distance_squared * probability);
         sample->pdf_w = PDF_DELTA;
         sample->shadow_ray = segment(ray_origin(surface, sample->direction), unpack(light.position));
+        sample->emission_ratio = light.probability / probability * point_light_pdf_w(scene, &light, -sample->direction) / distance_squared;
         return distance_squared > 0.0f && !is_black(intensity);
     }
     case LIGHT_DIRECTIONAL:
@@ -234,6 +259,7 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
         sample->radiance = transport_emission(scene, unpack(light.emission)) / probability;
         sample->pdf_w = PDF_DELTA;
         sample->shadow_ray = ray_from(surface, sample->direction);
+        sample->emission_ratio = light.probability / probability * distant_ray_pdf_a(scene);
         return true;
     case LIGHT_COLLIMATED: return false; // of all points only those on one ray see it
     case LIGHT_CONSTANT:
@@ -241,6 +267,7 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
         sample->pdf_w = probability * (0.25f * INV_PI_F);
         sample->radiance = transport_emission(scene, unpack(light.emission)) / sample->pdf_w;
         sample->shadow_ray = ray_from(surface, sample->direction);
+        sample->emission_ratio = light.probability / probability * distant_ray_pdf_a(scene);
         return true;
 #if LIGHT_OCCURS(LIGHT_ENVMAP)
     case LIGHT_ENVMAP: {
@@ -249,6 +276,7 @@ static inline bool sample_light(const SurfaceView* scene, const Surface* surface
         sample->pdf_w = probability * value.pdf_w;
         sample->radiance = transport_emission(scene, unpack(light.emission) * value.radiance) / sample->pdf_w;
         sample->shadow_ray = ray_from(surface, sample->direction);
+        sample->emission_ratio = light.probability / probability * distant_ray_pdf_a(scene);
         return value.pdf_w > 0.0f;
     }
 #endif
@@ -289,6 +317,22 @@ static inline float light_pdf_w(const SurfaceView* scene, const Surface* surface
     }
     const float cos_at_light = fabs(dot(surface->outgoing, surface->geometric_normal));
     return pdf_w_from_a(probability / light.area, dot(to_light, to_light), fmax(cos_at_light, 1e-8f));
+}
+
+// How much likelier next-event estimation at `position` is to choose the point on a light (or the direction, of a distant light)
+// from which a light subpath came there along `direction`, than the subpath was: p_connect / p_point. With the horizon 0.
+static inline float connect_ratio(const SurfaceView* scene, uint light_index, float3 light_point, float3 position, float3 direction)
+{
+    const Light light = scene->lights[light_index];
+    const float ratio = light_probability(scene, light_index, position, 0u) / light.probability;
+    if (light.type != LIGHT_SPHERE) return ratio;
+    const AnalyticPrimitive primitive = scene->analytics[light.primitive & ~ANALYTIC_BIT];
+    const float3 center = unpack(primitive.center);
+    const float3 to_center = center - position, to_light = light_point - position;
+    const float one_minus_cos = sphere_one_minus_cos(primitive.radius, dot(to_center, to_center));
+    if (!(one_minus_cos < 2.0f) || (scene->shapes[primitive.shape].flags & SHAPE_FLIP_NORMALS)) return ratio;
+    const float cos_at_light = dot(light_point - center, direction) / primitive.radius;
+    return ratio * light.area * cos_at_light / (2.0f * PI_F * one_minus_cos * dot(to_light, to_light));
 }
 
 // Radiance of the environment from a direction (unit, away from the scene), and the density (1/sr) with which

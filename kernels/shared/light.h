@@ -21,6 +21,9 @@ SHARED_BEGIN
 #define LIGHT_IS_DELTA(type) \
     ((type) == LIGHT_POINT || (type) == LIGHT_SPOT || (type) == LIGHT_DIRECTIONAL || (type) == LIGHT_PROJECTOR || (type) == LIGHT_COLLIMATED)
 
+// Whether it lies beyond the scene, in a direction rather than at a point.
+#define LIGHT_IS_DISTANT(type) ((type) == LIGHT_DIRECTIONAL || (type) == LIGHT_CONSTANT || (type) == LIGHT_ENVMAP)
+
 typedef struct Light {
     uint type;
     uint primitive;    // of an area light: as in Hit; of an environment map: its index;

@@ -1,6 +1,7 @@
 // Appends the records that paths left to a list, in order. Reads deposits, flags and each chunk's place in
 // the list; writes records below `capacity` (the host sees from the count when there were more). One
 // work-item a chunk. RECORD is the record's type (-D RECORD=Photon): photons and splats alike.
+#include "shared/bidirectional.h"
 #include "shared/film.h"
 #include "shared/path.h"
 #include "shared/photon.h"

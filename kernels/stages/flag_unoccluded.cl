@@ -1,5 +1,5 @@
-// Marks the splats whose shadow ray was free as deposits. Reads occluded; updates flags. One work-item an
-// active path. Used by ptracer.
+// Marks the splats whose shadow ray was free as deposits. Reads occluded; writes flags. One work-item an
+// active path. Used by ptracer and the bidirectional methods.
 #include "shared/path.h"
 
 __kernel void flag_unoccluded(__global const uint* restrict active, __global const uint* restrict active_count, __global const uint* restrict occluded,
@@ -7,5 +7,5 @@ __kernel void flag_unoccluded(__global const uint* restrict active, __global con
 {
     const uint item = get_global_id(0);
     if (item >= *active_count) return;
-    if (!occluded[active[item]]) flags[item] |= PATH_DEPOSIT;
+    flags[item] = occluded[active[item]] ? PATH_ENDED : PATH_DEPOSIT;
 }

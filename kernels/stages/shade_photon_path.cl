@@ -3,8 +3,7 @@
 // and flags. Photons straight from a light are left out where next-event estimation counts them
 // (-D DIRECT_LIGHT=1), and so are those that -D PHOTONS_KEPT does not ask for; a path that can leave no more photons ends. One
 // work-item an active path. Used by the photon mapping methods.
-#include "scene/continue_path.h"
-#include "shared/photon.h"
+#include "density/leave_photon.h"
 
 static inline bool scatters_broadly(const Scattering* scattering) { return !is_specular(scattering) && !is_narrow(scattering); }
 
@@ -14,17 +13,6 @@ static inline bool keeps_photon(const PathState* path)
     return PHOTONS_KEPT == PHOTONS_ALL || (PHOTONS_KEPT == PHOTONS_SCATTERED) == ((path->flags & PATH_SCATTERED_BROADLY) != 0u);
 }
 static inline bool keeps_more_photons(const Scattering* scattering) { return PHOTONS_KEPT != PHOTONS_CAUSTIC || !scatters_broadly(scattering); }
-
-static inline Photon make_photon(const Surface* surface, const PathState* path, bool unreached)
-{
-    Photon photon;
-    photon.position = pack(surface->position);
-    photon.direction = pack_direction(-surface->outgoing);
-    photon.flux = pack(unpack(path->throughput) * irradiance_scale(surface, surface->shading_normal));
-    photon.normal_depth = pack_normal(facing(surface->geometric_normal, surface->outgoing)) |
-                          (unreached ? PHOTON_UNREACHED : 0u) | (min(path->depth, PHOTON_MAX_DEPTH) << PHOTON_DEPTH_SHIFT);
-    return photon;
-}
 
 __kernel void shade_photon_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, uint path_count, __global const Hit* restrict hits,
                                 __global const uint* restrict active, __global const uint* restrict active_count, __global Ray* restrict rays,

@@ -48,8 +48,8 @@ float dense_grid_radius(const Bounds& bounds, float radius, uint table_size)
     return radius;
 }
 
-PhotonMap::PhotonMap(Device& device, const Bounds& bounds)
-    : device_(&device), bounds_(bounds), photon_cell_keys_(device, "photon_cell_keys", "Find photon cells"),
+PhotonMap::PhotonMap(Device& device, const Bounds& bounds, bool keeps_order)
+    : device_(&device), bounds_(bounds), keeps_order_(keeps_order), photon_cell_keys_(device, "photon_cell_keys", "Find photon cells"),
       scatter_photons_(device, "scatter_photons", "Sort photons"),
       reorder_photons_(device, "reorder_photons", "Lay out photons", {{{"IN_ORDER", "0"}}, {}}),
       lay_out_sorted_(device, "reorder_photons", "Lay out photons", {{{"IN_ORDER", "1"}}, {}})
@@ -91,7 +91,7 @@ void PhotonMap::fill(const RecordList<Photon>& photons, std::size_t count)
 void PhotonMap::sort_and_lay_out(const RecordList<Photon>& photons, std::size_t count)
 {
     const std::size_t eights = (count + 7) / 8;
-    if (!sort_->takes_one_pass(grid_.cell_count)) {
+    if (keeps_order_ || !sort_->takes_one_pass(grid_.cell_count)) {
         sort_->sort(photons.count(), count, grid_.cell_count);
         reorder_photons_(eights, photons.records(), sort_->order(), photons.count(), grid_.stride, streams_);
         return;

@@ -12,8 +12,8 @@ namespace sundog {
 
 class PhotonMap {
 public:
-    // bounds: of everything that photons lie on.
-    PhotonMap(Device& device, const Bounds& bounds);
+    // bounds: of everything that photons lie on. keeps_order: order() says, after a build, which photon lies where.
+    PhotonMap(Device& device, const Bounds& bounds, bool keeps_order = false);
 
     // Sorts the photons into cells for queries of at most `largest_radius` (scene units). `count` of them,
     // as the host knows it.
@@ -27,6 +27,7 @@ public:
     const Buffer<uint>& cell_ends() const { return sort_->ends(); }
     uint cell_ends_offset() const { return sort_->ends_offset(); }
     const Buffer<float>& streams() const { return streams_; }
+    const Buffer<uint>& order() const { return sort_->order(); }
 
 private:
     void reserve(std::size_t photons);
@@ -35,6 +36,7 @@ private:
 
     Device* device_;
     Bounds bounds_;
+    bool keeps_order_;
     Kernel photon_cell_keys_;
     Kernel scatter_photons_;
     Kernel reorder_photons_, lay_out_sorted_;

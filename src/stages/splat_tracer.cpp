@@ -1,14 +1,10 @@
 #include "stages/splat_tracer.h"
 
-#include <algorithm>
-
 namespace sundog {
 
 SplatTracer::SplatTracer(Device& device, const DeviceScene& scene, const Camera& camera, std::size_t paths, std::size_t pixels, PathRules rules,
                          SamplerKind sampler)
-    : device_(&device), path_count_(paths), pixels_(pixels), rules_(rules), flag_unoccluded_(device, "flag_unoccluded", "Flag free splats"),
-      splat_pixel_keys_(device, "splat_pixel_keys", "Find splat pixels"), add_splats_(device, "add_splats", "Add splats"), shadow_(device, scene, paths, false),
-      deposits_(device, paths, "splat deposits"), splats_(device, "splats", paths)
+    : path_count_(paths), rules_(rules), splats_(device, scene, paths, pixels)
 {
     BuildOptions options = scene.surface_options();
     use_sampler(options, sampler);
@@ -26,34 +22,16 @@ void SplatTracer::trace_once(const DeviceScene& scene, CameraPaths& camera, Path
     do {
         pool.trace(scene);
         shade_splat_path_(pool.items(), scene.surfaces(), camera.camera(), camera.filter(), key, rules_, count, pool.hits, pool.active(), pool.active_count(),
-                          pool.rays, pool.paths, shadow_.rays, deposits_, pool.flags);
-        shadow_.trace(scene, pool);
-        flag_unoccluded_(pool.items(), pool.active(), pool.active_count(), shadow_.occluded, pool.flags);
-        splats_.append(pool.compaction, deposits_, pool.flags, pool.active_count(), pool.items());
+                          pool.rays, pool.paths, splats_.shadow_rays(), splats_.deposits, pool.flags);
+        splats_.collect(scene, pool);
     } while (pool.keep_alive());
 }
 
 void SplatTracer::trace(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, SamplerKey key)
 {
-    trace_once(scene, camera, pool, key);
-    std::size_t stored = splats_.read_count();
-    if (stored > splats_.capacity()) {
-        splats_.grow(stored); // the same key gives the same splats again
-        trace_once(scene, camera, pool, key);
-        stored = splats_.read_count();
-    }
-    reserve_sort();
-    splat_pixel_keys_(stored, splats_.records(), splats_.count(), sort_->keys);
-    sort_->sort(splats_.count(), stored, static_cast<uint>(std::max<std::size_t>(pixels_, 2)));
-    add_splats_(pixels_, splats_.records(), sort_->order(), sort_->ends(), sort_->ends_offset(), static_cast<uint>(pixels_),
-                1.0f / static_cast<float>(path_count_), camera.radiance);
-}
-
-void SplatTracer::reserve_sort()
-{
-    if (sort_ && sort_->capacity() >= splats_.capacity()) return;
-    sort_.reset();
-    sort_ = std::make_unique<KeySort>(*device_, splats_.capacity(), static_cast<uint>(std::max<std::size_t>(pixels_, 2)));
+    do trace_once(scene, camera, pool, key); // the same key gives the same splats again
+    while (!splats_.complete());
+    splats_.add_to(camera.radiance);
 }
 
 } // namespace sundog

@@ -1,0 +1,112 @@
+#include "methods/bidirectional.h"
+
+#include "methods/light_pass.h"
+#include "methods/render_context.h"
+#include "methods/standard_parameters.h"
+#include "stages/photon_merging.h"
+#include "stages/vertex_connections.h"
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
+namespace sundog
+{
+namespace
+{
+
+class Bidirectional final : public Method
+{
+public:
+    Bidirectional(RenderContext& context, const Parameters& parameters, JoinedBy joined_by)
+        : context_(context), joined_by_(joined_by), camera_(context.device, context.camera, context.filter, sampler_kind(parameters), context.scene.surface_options()),
+          light_subpaths_(context.device, context.scene, context.camera,
+                          {light_path_count(parameters, camera_.count()), camera_.count(), path_rules(parameters), sampler_kind(parameters),
+                           joined_by.connections, joined_by.merging}),
+          camera_subpaths_(context.device, context.scene, context.camera, camera_.count(), path_rules(parameters), sampler_kind(parameters), joined_by.connections),
+          pool_(context.device, context.scene, std::max(light_subpaths_.paths(), camera_.count()))
+    {
+        if (joined_by.connections) connections_.emplace(context.device, context.scene, camera_.count(), path_rules(parameters));
+        if (!joined_by.merging) return;
+        first_radius_ = first_radius(context, parameters);
+        alpha_ = parameters.real("alpha");
+        merging_.emplace(context.device, context.scene, path_rules(parameters), density_kernel(parameters));
+    }
+
+    void render_pass(std::uint64_t iteration) override
+    {
+        const SamplerKey key = sampler_key(context_.seed, iteration);
+        const float radius = joined_by_.merging ? static_cast<float>(scheduled_radius(first_radius_, alpha_, 2, iteration)) : 0.0f;
+        const Techniques techniques = techniques_of(radius);
+        light_subpaths_.trace(context_.scene, camera_, pool_, key, techniques);
+        if (merging_) merging_->build(light_subpaths_, radius);
+
+        camera_.start(context_.scene, pool_, key);
+        camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
+        if (connections_) light_subpaths_.add_splats(camera_.radiance);
+        for (;;) {
+            camera_subpaths_.shade(context_.scene, camera_, pool_, key, techniques);
+            if (connections_) connections_->connect(context_.scene, pool_, camera_subpaths_, light_subpaths_, key, techniques, camera_.radiance);
+            if (merging_) merging_->merge(pool_, camera_subpaths_, techniques, camera_.radiance);
+            if (!pool_.keep_alive()) break;
+            pool_.trace(context_.scene);
+        }
+        photons_stored_ += light_subpaths_.photons_stored();
+        context_.spectral.to_rgb(camera_.radiance);
+        context_.film.accumulate(camera_.radiance);
+    }
+
+    MethodCounters counters() const override
+    {
+        const std::uint64_t iterations = context_.film.iterations();
+        return {iterations * light_subpaths_.paths(), iterations * camera_.count(), photons_stored_, pool_.rays_traced()};
+    }
+
+    void serialize(StateArchive& archive) override
+    {
+        archive.value("photons stored", photons_stored_);
+        pool_.serialize(archive);
+        light_subpaths_.serialize(archive);
+    }
+
+private:
+    Techniques techniques_of(float radius) const
+    {
+        const float paths = static_cast<float>(light_subpaths_.paths());
+        const float merge = std::numbers::pi_v<float> * radius * radius * paths;
+        return {merge, merge > 0.0f ? 1.0f / merge : 0.0f, joined_by_.connections ? 1.0f : 0.0f, paths};
+    }
+
+    RenderContext& context_;
+    JoinedBy joined_by_;
+    CameraPaths camera_;
+    LightSubpaths light_subpaths_;
+    CameraSubpaths camera_subpaths_;
+    PathPool pool_;
+    std::optional<VertexConnections> connections_;
+    std::optional<PhotonMerging> merging_;
+    double first_radius_ = 0.0, alpha_ = 1.0;
+    std::uint64_t photons_stored_ = 0;
+};
+
+} // namespace
+
+std::unique_ptr<Method> make_bidirectional(RenderContext& context, const Parameters& parameters, JoinedBy joined_by)
+{
+    return std::make_unique<Bidirectional>(context, parameters, joined_by);
+}
+
+std::vector<ParameterSpec> bidirectional_specs()
+{
+    return {photons_spec(), max_depth_spec(), rr_depth_spec(5, "subpaths, by throughput"), sampler_spec(), light_choice_spec(), spectral_spec(), iterations_spec()};
+}
+
+std::vector<ParameterSpec> merging_specs()
+{
+    ParameterSpec alpha = alpha_spec();
+    alpha.default_value = "0.75";
+    alpha.description = "How slowly the radius shrinks (Knaus and Zwicker 2011): 2/3 is best where merging finds most of the light, 1 keeps it.";
+    return {radius_spec(), alpha, kernel_spec("uniform")};
+}
+
+} // namespace sundog
