@@ -14,8 +14,8 @@ typedef struct LensConnection {
 } LensConnection;
 
 // flux: of the light subpath, W. u: lens and pixel filter.
-static inline LensConnection connect_to_lens(const Camera* camera, __global const PixelFilter* filter, const Surface* surface, const Scattering* scattering,
-                                             float3 flux, float4 u)
+static inline LensConnection connect_to_lens(const Camera* camera, __global const PixelFilter* filter, const Surface* surface,
+                                             const Scattering* scattering, float3 flux, float4 u)
 {
     LensConnection result;
     result.splat.radiance = pack((float3)(0.0f));

@@ -4,7 +4,8 @@
 #include "scene/bsdf.h"
 #include "scene/path_weights.h"
 
-static inline PathVertex make_vertex(const Surface* surface, const Scattering* scattering, float3 throughput, uint depth, PathWeights weights)
+static inline PathVertex make_vertex(const Surface* surface, const Scattering* scattering, float3 throughput, uint depth,
+                                     PathWeights weights)
 {
     PathVertex vertex;
     vertex.position = pack(surface->position);
@@ -12,8 +13,6 @@ static inline PathVertex make_vertex(const Surface* surface, const Scattering* s
     vertex.throughput = pack(throughput);
     vertex.depth = depth;
     vertex.weights = weights;
-    vertex.previous = NO_VERTEX;
-    vertex.rank = 0u;
     vertex.lobe = pack_lobe(scattering, surface);
     return vertex;
 }
@@ -28,13 +27,17 @@ static inline Scattering scattering_of(__global const PathVertex* vertex, Surfac
 }
 
 // What a subpath carries on when it leaves a vertex along `next`.
-static inline PathWeights weights_along(PathWeights weights, Techniques techniques, const Surface* surface, const Scattering* scattering, float pdf_w, float3 next)
+static inline PathWeights weights_along(PathWeights weights, Techniques techniques, const Surface* surface, const Scattering* scattering,
+                                        float pdf_w, float3 next)
 {
     const float reverse_pdf_w = pdf_w == PDF_DELTA ? 0.0f : bsdf_reverse_pdf_w(scattering, surface, next);
     return weights_after_scattering(weights, techniques, pdf_w, reverse_pdf_w, fabs(dot(next, surface->geometric_normal)));
 }
 
 // The subpath may leave a vertex that can be joined to others.
-static inline bool can_be_joined(const Scattering* scattering) { return !is_specular(scattering) && !is_black_side(scattering); }
+static inline bool can_be_joined(const Scattering* scattering)
+{
+    return !is_specular(scattering) && !is_black_side(scattering);
+}
 
 #endif

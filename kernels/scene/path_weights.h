@@ -30,7 +30,8 @@ static inline PathWeights weights_at_vertex(PathWeights weights, float distance_
 
 // pdf_w: of the direction that the subpath takes; reverse_pdf_w: of sampling from it the direction that the subpath came from;
 // cosine: of the new direction to the geometric normal (absolute).
-static inline PathWeights weights_after_scattering(PathWeights weights, Techniques techniques, float pdf_w, float reverse_pdf_w, float cosine)
+static inline PathWeights weights_after_scattering(PathWeights weights, Techniques techniques, float pdf_w, float reverse_pdf_w,
+                                                   float cosine)
 {
     PathWeights next;
     if (pdf_w == PDF_DELTA) {
@@ -67,6 +68,9 @@ static inline float hit_weight(PathWeights weights, float pdf_connect, float pdf
     return 1.0f / (1.0f + pdf_connect * weights.vcm + pdf_emit * weights.vc);
 }
 
-static inline float joint_weight(float light_share, float camera_share) { return 1.0f / (1.0f + light_share + camera_share); }
+static inline float joint_weight(float light_share, float camera_share)
+{
+    return 1.0f / (1.0f + light_share + camera_share);
+}
 
 #endif

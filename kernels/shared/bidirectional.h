@@ -36,16 +36,22 @@ SHARED_SIZE(Techniques, 16);
 // A vertex that can be joined to one of the other side.
 typedef struct PathVertex {
     Vec3 position;
-    float offset;       // as in Surface
-    Vec3 throughput;    // of a light subpath: flux (W), about the lobe's normal (irradiance_scale)
-    uint depth;         // edges so far
+    float offset;    // as in Surface
+    Vec3 throughput; // of a light subpath: flux (W), about the lobe's normal (irradiance_scale)
+    uint depth;      // edges so far
     PathWeights weights;
-    uint previous;      // of a light subpath: slot of its vertex before this one that connects, or NO_VERTEX
-    uint rank;          // of a light subpath: how many of its vertices up to this one connect; 0 where this one does not
-    uint unused[3];
+    uint unused[5];
     LobeRecord lobe;
 } PathVertex;
 SHARED_SIZE(PathVertex, 192);
+
+// Where a light subpath's vertices lie. They are apart from the vertices, which are large, so that following a path does not
+// wait for memory at every step.
+typedef struct VertexLink {
+    uint previous; // slot of the path's vertex before this one, or NO_VERTEX
+    uint rank;     // how many of the path's vertices there are up to this one; 0: the slot holds none
+} VertexLink;
+SHARED_SIZE(VertexLink, 8);
 
 #define NO_VERTEX 0xffffffffu
 

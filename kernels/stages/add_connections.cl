@@ -3,8 +3,9 @@
 // path. Used by the bidirectional methods.
 #include "math/vec3.h"
 
-__kernel void add_connections(__global const uint* restrict active, __global const uint* restrict active_count, __global const uint* restrict firsts, uint window,
-                              uint count, __global const uint* restrict occluded, __global const Vec3* restrict connected, __global Vec3* restrict radiance)
+__kernel void add_connections(__global const uint* restrict active, __global const uint* restrict active_count,
+                              __global const uint* restrict firsts, uint window, uint count, __global const uint* restrict occluded,
+                              __global const Vec3* restrict connected, __global Vec3* restrict radiance)
 {
     const uint item = get_global_id(0);
     if (item >= *active_count) return;

@@ -1,22 +1,29 @@
 // Connects camera vertices to light vertices. Reads pairs; writes for each the shadow ray between its vertices and the radiance that it
 // brings if that is free, weighted against all other ways to make the path. One work-item a pair. Used by the bidirectional methods.
+#include "math/simd8.h"
 #include "scene/camera_rays.h"
 #include "scene/continue_path.h"
 #include "scene/lights.h"
 #include "scene/path_vertex.h"
 
-__kernel void connect_vertices(SURFACE_PARAMETERS, PathRules rules, Techniques techniques, uint count, __global const VertexPair* restrict pairs,
-                               __global const PathVertex* restrict camera_vertices, __global const PathVertex* restrict light_vertices,
-                               __global Ray* restrict shadow_rays, __global Vec3* restrict radiance)
+// Light vertices lie bounce by bounce: memory would be waited for at each.
+#define PAIRS_AHEAD 8u
+
+__kernel void connect_vertices(SURFACE_PARAMETERS, PathRules rules, Techniques techniques, uint count,
+                               __global const VertexPair* restrict pairs, __global const PathVertex* restrict camera_vertices,
+                               __global const PathVertex* restrict light_vertices, __global Ray* restrict shadow_rays,
+                               __global Vec3* restrict radiance)
 {
     const uint item = get_global_id(0);
     if (item >= count) return;
     shadow_rays[item].t_max = 0.0f;
     const VertexPair pair = pairs[item];
+    __global const char* soon = (__global const char*)(light_vertices + pairs[min(item + PAIRS_AHEAD, count - 1u)].slot);
+    prefetch256(soon);
     __global const PathVertex* camera_vertex = camera_vertices + pair.path;
     __global const PathVertex* light_vertex = light_vertices + pair.slot;
     const uint edges = camera_vertex->depth + light_vertex->depth + 1u;
-    if (light_vertex->rank == 0u || edges > rules.max_depth) return;
+    if (edges > rules.max_depth) return;
     const float3 between = unpack(light_vertex->position) - unpack(camera_vertex->position);
     const float distance_squared = dot(between, between);
     const float3 direction = between * rsqrt(distance_squared);
@@ -33,10 +40,12 @@ __kernel void connect_vertices(SURFACE_PARAMETERS, PathRules rules, Techniques t
     const float cos_seen = fabs(dot(direction, seen.geometric_normal)), cos_lit = fabs(dot(direction, lit.geometric_normal));
     const float3 value = unpack(camera_vertex->throughput) * f_camera * unpack(light_vertex->throughput) * f_light *
                          (fabs(dot(direction, at_camera.normal)) * cos_lit / distance_squared);
-    const float light_share = connection_share(light_vertex->weights, techniques, bsdf_pdf_w(&at_camera, &seen, direction) * cos_lit / distance_squared,
-                                               bsdf_reverse_pdf_w(&at_light, &lit, -direction));
-    const float camera_share = connection_share(camera_vertex->weights, techniques, bsdf_pdf_w(&at_light, &lit, -direction) * cos_seen / distance_squared,
-                                                bsdf_reverse_pdf_w(&at_camera, &seen, direction));
+    const float light_share =
+        connection_share(light_vertex->weights, techniques, bsdf_pdf_w(&at_camera, &seen, direction) * cos_lit / distance_squared,
+                         bsdf_reverse_pdf_w(&at_light, &lit, -direction));
+    const float camera_share =
+        connection_share(camera_vertex->weights, techniques, bsdf_pdf_w(&at_light, &lit, -direction) * cos_seen / distance_squared,
+                         bsdf_reverse_pdf_w(&at_camera, &seen, direction));
     radiance[item] = pack(value * joint_weight(light_share, camera_share));
     shadow_rays[item] = segment(ray_origin(&seen, direction), ray_origin(&lit, -direction));
 }

@@ -9,7 +9,8 @@
 #include "scene/path_vertex.h"
 
 // The query of a vertex, for what decides which photons count.
-static inline GatherQuery vertex_query(__global const PathVertex* vertex, const Surface* surface, const Scattering* scattering, PathRules rules, float radius)
+static inline GatherQuery vertex_query(__global const PathVertex* vertex, const Surface* surface, const Scattering* scattering,
+                                       PathRules rules, float radius)
 {
     GatherQuery query;
     query.position = vertex->position;
@@ -21,7 +22,8 @@ static inline GatherQuery vertex_query(__global const PathVertex* vertex, const 
 }
 
 // f times the weight of a merge with a photon that came along `direction`.
-static inline float3 merged(const Surface* surface, const Scattering* scattering, PathWeights weights, Techniques techniques, float3 direction, float vcm, float vm)
+static inline float3 merged(const Surface* surface, const Scattering* scattering, PathWeights weights, Techniques techniques,
+                            float3 direction, float vcm, float vm)
 {
     const float3 f = evaluate_for_photon(scattering, surface, -direction);
     if (is_black(f)) return f;
@@ -30,9 +32,10 @@ static inline float3 merged(const Surface* surface, const Scattering* scattering
     return f * joint_weight(light_share, camera_share);
 }
 
-__kernel void merge_photons(PhotonGrid grid, __global const uint* restrict cell_ends, uint cell_ends_offset, __global const float* restrict streams,
-                            __global const float* restrict weight_streams, PathRules rules, Techniques techniques, float radius,
-                            __global const uint* restrict active, __global const uint* restrict active_count, __global const uint* restrict flags,
+__kernel void merge_photons(PhotonGrid grid, __global const uint* restrict cell_ends, uint cell_ends_offset,
+                            __global const float* restrict streams, __global const float* restrict weight_streams, PathRules rules,
+                            Techniques techniques, float radius, __global const uint* restrict active,
+                            __global const uint* restrict active_count, __global const uint* restrict flags,
                             __global const PathVertex* restrict vertices, __global Vec3* restrict radiance)
 {
     const uint item = get_global_id(0);
@@ -65,7 +68,8 @@ __kernel void merge_photons(PhotonGrid grid, __global const uint* restrict cell_
                                              streams[PHOTON_BLUE * grid.stride + i + j]);
                 const float3 direction = unpack_direction(as_uint(streams[PHOTON_DIRECTION * grid.stride + i + j]));
                 sum += flux * shape[j] *
-                       merged(&surface, &scattering, weights, techniques, direction, weight_streams[i + j], weight_streams[grid.stride + i + j]);
+                       merged(&surface, &scattering, weights, techniques, direction, weight_streams[i + j],
+                              weight_streams[grid.stride + i + j]);
             }
         }
     }

@@ -2,8 +2,8 @@
 // Reads the weights, by photon, and the order; writes the streams. One work-item a photon. Used by the bidirectional methods.
 #include "shared/bidirectional.h"
 
-__kernel void reorder_merge_weights(__global const MergeWeights* restrict weights, __global const uint* restrict order, __global const uint* restrict photon_count,
-                                    uint stride, __global float* restrict streams)
+__kernel void reorder_merge_weights(__global const MergeWeights* restrict weights, __global const uint* restrict order,
+                                    __global const uint* restrict photon_count, uint stride, __global float* restrict streams)
 {
     const uint place = get_global_id(0);
     if (place >= *photon_count) return;

@@ -6,7 +6,8 @@
 #include "scene/direct_light.h"
 #include "scene/path_vertex.h"
 
-static inline PathWeights arriving_weights(const Camera* camera, Techniques techniques, PathWeights weights, uint depth, const Surface* surface, float distance)
+static inline PathWeights arriving_weights(const Camera* camera, Techniques techniques, PathWeights weights, uint depth,
+                                           const Surface* surface, float distance)
 {
     const float cosine = fabs(dot(surface->outgoing, surface->geometric_normal));
     if (depth > 1u) return weights_at_vertex(weights, distance * distance, cosine);
@@ -17,7 +18,8 @@ static inline PathWeights arriving_weights(const Camera* camera, Techniques tech
 
 // Radiance of a surface that the path found, weighted against the other ways to find it. What the camera sees itself, only
 // it finds.
-static inline float3 weighted_emission(const SurfaceView* scene, const Surface* surface, const PathState* path, PathWeights weights, Ray ray, float distance)
+static inline float3 weighted_emission(const SurfaceView* scene, const Surface* surface, const PathState* path, PathWeights weights,
+                                       Ray ray, float distance)
 {
     const uint index = light_of_hit(scene, surface);
     const float3 emitted = emitted_radiance(scene, surface, index);
@@ -38,8 +40,8 @@ static inline float3 weighted_environment(const SurfaceView* scene, const PathSt
 }
 
 // Next-event estimation as in direct_light.h, weighted against the other ways to find the path [Georgiev 2012, eqs. 44 and 45].
-static inline float3 connect_to_light(const SurfaceView* scene, const Surface* surface, const Scattering* scattering, PathWeights weights, Techniques techniques,
-                                      uint4 words, Ray* shadow_ray)
+static inline float3 connect_to_light(const SurfaceView* scene, const Surface* surface, const Scattering* scattering, PathWeights weights,
+                                      Techniques techniques, uint4 words, Ray* shadow_ray)
 {
     *shadow_ray = no_ray();
     LightSample light;
@@ -49,15 +51,18 @@ static inline float3 connect_to_light(const SurfaceView* scene, const Surface* s
     *shadow_ray = light.shadow_ray;
     const float light_share = light.pdf_w == PDF_DELTA ? 0.0f : bsdf_pdf_w(scattering, surface, light.direction) / light.pdf_w;
     const float emitted_pdf_a = light.emission_ratio * fabs(dot(light.direction, surface->geometric_normal));
-    const float camera_share = connection_share(weights, techniques, emitted_pdf_a, bsdf_reverse_pdf_w(scattering, surface, light.direction));
+    const float camera_share =
+        connection_share(weights, techniques, emitted_pdf_a, bsdf_reverse_pdf_w(scattering, surface, light.direction));
     return f * light.radiance * (joint_weight(light_share, camera_share) * fabs(dot(light.direction, scattering->normal)));
 }
 
-__kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SamplerKey key, PathRules rules, Techniques techniques, uint width, uint height,
-                                   __global const Hit* restrict hits, __global const uint* restrict active, __global const uint* restrict active_count,
-                                   __global Ray* restrict rays, __global PathState* restrict paths, __global Subpath* restrict subpaths,
-                                   __global Vec3* restrict radiance, __global Ray* restrict shadow_rays, __global Vec3* restrict shadow_radiance,
-                                   __global PathVertex* restrict vertices, __global uint* restrict flags)
+__kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SamplerKey key, PathRules rules, Techniques techniques, uint width,
+                                   uint height, __global const Hit* restrict hits, __global const uint* restrict active,
+                                   __global const uint* restrict active_count, __global Ray* restrict rays,
+                                   __global PathState* restrict paths, __global Subpath* restrict subpaths,
+                                   __global Vec3* restrict radiance, __global Ray* restrict shadow_rays,
+                                   __global Vec3* restrict shadow_radiance, __global PathVertex* restrict vertices,
+                                   __global uint* restrict flags)
 {
     const uint item = get_global_id(0);
     if (item >= *active_count) return;
@@ -92,7 +97,8 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SamplerKey
         flag |= PATH_JOINS;
         if (techniques.connect > 0.0f) {
             Ray shadow_ray;
-            shadow_radiance[index] = pack(throughput * connect_to_light(&scene, &surface, &scattering, weights, techniques, words, &shadow_ray));
+            shadow_radiance[index] =
+                pack(throughput * connect_to_light(&scene, &surface, &scattering, weights, techniques, words, &shadow_ray));
             shadow_rays[index] = shadow_ray;
         }
     }

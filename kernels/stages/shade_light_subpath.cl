@@ -7,7 +7,8 @@
 #include "scene/lights.h"
 #include "scene/path_vertex.h"
 
-static inline PathWeights arriving_weights(const SurfaceView* scene, const Subpath* subpath, uint depth, const Surface* surface, Ray ray, float distance)
+static inline PathWeights arriving_weights(const SurfaceView* scene, const Subpath* subpath, uint depth, const Surface* surface, Ray ray,
+                                           float distance)
 {
     const float cosine = fabs(dot(surface->outgoing, surface->geometric_normal));
     if (depth > 1u) return weights_at_vertex(subpath->weights, distance * distance, cosine);
@@ -18,18 +19,22 @@ static inline PathWeights arriving_weights(const SurfaceView* scene, const Subpa
 }
 
 // The light's side of the weight against all that the camera's could have found [Georgiev 2012, eq. 46].
-static inline float splat_weight(const LensConnection* connection, const Surface* surface, const Scattering* scattering, PathWeights weights, Techniques techniques)
+static inline float splat_weight(const LensConnection* connection, const Surface* surface, const Scattering* scattering,
+                                 PathWeights weights, Techniques techniques)
 {
     const float reverse_pdf_w = bsdf_reverse_pdf_w(scattering, surface, connection->direction);
     return joint_weight(connection_share(weights, techniques, connection->pdf_a / techniques.light_paths, reverse_pdf_w), 0.0f);
 }
 
-__kernel void shade_light_subpath(SURFACE_PARAMETERS, Camera camera, __global const PixelFilter* restrict filter, SamplerKey key, PathRules rules,
-                                  Techniques techniques, uint path_count, uint first_slot, __global const Hit* restrict hits,
-                                  __global const uint* restrict active, __global const uint* restrict active_count, __global Ray* restrict rays,
-                                  __global PathState* restrict paths, __global Subpath* restrict subpaths, __global PathVertex* restrict vertices,
-                                  __global uint* restrict last_vertices, __global Ray* restrict shadow_rays, __global Splat* restrict splats,
-                                  __global Photon* restrict photons, __global MergeWeights* restrict merge_weights, __global uint* restrict flags)
+__kernel void shade_light_subpath(SURFACE_PARAMETERS, Camera camera, __global const PixelFilter* restrict filter, SamplerKey key,
+                                  PathRules rules, Techniques techniques, uint path_count, uint first_slot,
+                                  __global const Hit* restrict hits, __global const uint* restrict active,
+                                  __global const uint* restrict active_count, __global Ray* restrict rays,
+                                  __global PathState* restrict paths, __global Subpath* restrict subpaths,
+                                  __global PathVertex* restrict vertices, __global VertexLink* restrict links,
+                                  __global uint* restrict last_vertices, __global Ray* restrict shadow_rays,
+                                  __global Splat* restrict splats, __global Photon* restrict photons,
+                                  __global MergeWeights* restrict merge_weights, __global uint* restrict flags)
 {
     const uint item = get_global_id(0);
     if (item >= *active_count) return;
@@ -38,7 +43,7 @@ __kernel void shade_light_subpath(SURFACE_PARAMETERS, Camera camera, __global co
     const bool connects = techniques.connect > 0.0f;
     flags[item] = PATH_ENDED;
     shadow_rays[index].t_max = 0.0f;
-    if (connects) vertices[slot].rank = 0u;
+    if (connects) links[slot].rank = 0u;
     const Hit hit = hits[index];
     if (hit.primitive == NO_PRIMITIVE) return;
 
@@ -63,10 +68,11 @@ __kernel void shade_light_subpath(SURFACE_PARAMETERS, Camera camera, __global co
     }
     if (connects && can_be_joined(&scattering)) {
         const float3 flux = unpack(path.throughput);
-        PathVertex vertex = make_vertex(&surface, &scattering, flux * irradiance_scale(&surface, scattering.normal), path.depth, subpath.weights);
-        vertex.previous = last_vertices[index];
-        vertex.rank = vertex.previous == NO_VERTEX ? 1u : vertices[vertex.previous].rank + 1u;
-        vertices[slot] = vertex;
+        vertices[slot] =
+            make_vertex(&surface, &scattering, flux * irradiance_scale(&surface, scattering.normal), path.depth, subpath.weights);
+        const uint previous = last_vertices[index];
+        const VertexLink link = {previous, previous == NO_VERTEX ? 1u : links[previous].rank + 1u};
+        links[slot] = link;
         last_vertices[index] = slot;
 
         LensConnection connection = connect_to_lens(&camera, filter, &surface, &scattering, flux, u);

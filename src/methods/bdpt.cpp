@@ -13,10 +13,14 @@ const MethodRegistration registration({
     .paper = "Veach and Guibas 1995, SIGGRAPH; Lafortune and Willems 1993, Compugraphics",
     .estimator_class = "unbiased",
     .error_model = ErrorModel::variance,
-    .description = "Connects subpaths from the camera and from the lights in every way, weighted by the balance heuristic. For light that comes round "
-                   "corners and for caustics seen directly; blind to caustics seen in mirrors or through glass.",
+    .description =
+        "Connects subpaths from the camera and from the lights in every way, weighted by the balance heuristic. For light that comes round "
+        "corners and for caustics seen directly; blind to caustics seen in mirrors or through glass.",
     .parameters = bidirectional_specs(),
-    .create = [](RenderContext& context, const Parameters& parameters) { return make_bidirectional(context, parameters, {true, false}); },
+    .create =
+        [](RenderContext& context, const Parameters& parameters) {
+            return make_bidirectional(context, parameters, {true, false});
+        },
 });
 
 } // namespace

@@ -19,11 +19,13 @@ class Bidirectional final : public Method
 {
 public:
     Bidirectional(RenderContext& context, const Parameters& parameters, JoinedBy joined_by)
-        : context_(context), joined_by_(joined_by), camera_(context.device, context.camera, context.filter, sampler_kind(parameters), context.scene.surface_options()),
+        : context_(context), joined_by_(joined_by),
+          camera_(context.device, context.camera, context.filter, sampler_kind(parameters), context.scene.surface_options()),
           light_subpaths_(context.device, context.scene, context.camera,
                           {light_path_count(parameters, camera_.count()), camera_.count(), path_rules(parameters), sampler_kind(parameters),
                            joined_by.connections, joined_by.merging}),
-          camera_subpaths_(context.device, context.scene, context.camera, camera_.count(), path_rules(parameters), sampler_kind(parameters), joined_by.connections),
+          camera_subpaths_(context.device, context.scene, context.camera, camera_.count(), path_rules(parameters), sampler_kind(parameters),
+                           joined_by.connections),
           pool_(context.device, context.scene, std::max(light_subpaths_.paths(), camera_.count()))
     {
         if (joined_by.connections) connections_.emplace(context.device, context.scene, camera_.count(), path_rules(parameters));
@@ -46,7 +48,8 @@ public:
         if (connections_) light_subpaths_.add_splats(camera_.radiance);
         for (;;) {
             camera_subpaths_.shade(context_.scene, camera_, pool_, key, techniques);
-            if (connections_) connections_->connect(context_.scene, pool_, camera_subpaths_, light_subpaths_, key, techniques, camera_.radiance);
+            if (connections_)
+                connections_->connect(context_.scene, pool_, camera_subpaths_, light_subpaths_, key, techniques, camera_.radiance);
             if (merging_) merging_->merge(pool_, camera_subpaths_, techniques, camera_.radiance);
             if (!pool_.keep_alive()) break;
             pool_.trace(context_.scene);
@@ -98,14 +101,16 @@ std::unique_ptr<Method> make_bidirectional(RenderContext& context, const Paramet
 
 std::vector<ParameterSpec> bidirectional_specs()
 {
-    return {photons_spec(), max_depth_spec(), rr_depth_spec(5, "subpaths, by throughput"), sampler_spec(), light_choice_spec(), spectral_spec(), iterations_spec()};
+    return {photons_spec(),  max_depth_spec(), rr_depth_spec(5, "subpaths, by throughput"), sampler_spec(), light_choice_spec(),
+            spectral_spec(), iterations_spec()};
 }
 
 std::vector<ParameterSpec> merging_specs()
 {
     ParameterSpec alpha = alpha_spec();
     alpha.default_value = "0.75";
-    alpha.description = "How slowly the radius shrinks (Knaus and Zwicker 2011): 2/3 is best where merging finds most of the light, 1 keeps it.";
+    alpha.description =
+        "How slowly the radius shrinks (Knaus and Zwicker 2011): 2/3 is best where merging finds most of the light, 1 keeps it.";
     return {radius_spec(), alpha, kernel_spec("uniform")};
 }
 

@@ -22,10 +22,14 @@ const MethodRegistration registration({
     .paper = "Vorba 2011, Central European Seminar on Computer Graphics",
     .estimator_class = "consistent",
     .error_model = ErrorModel::none,
-    .description = "Merges photons at every vertex of the camera's path, weighted by the balance heuristic: vcm without connections. Does for glossy "
-                   "surfaces what final gathering does for diffuse ones.",
+    .description =
+        "Merges photons at every vertex of the camera's path, weighted by the balance heuristic: vcm without connections. Does for glossy "
+        "surfaces what final gathering does for diffuse ones.",
     .parameters = specs(),
-    .create = [](RenderContext& context, const Parameters& parameters) { return make_bidirectional(context, parameters, {false, true}); },
+    .create =
+        [](RenderContext& context, const Parameters& parameters) {
+            return make_bidirectional(context, parameters, {false, true});
+        },
 });
 
 } // namespace

@@ -14,8 +14,22 @@ std::vector<ParameterSpec> specs()
     std::vector<ParameterSpec> specs = bidirectional_specs();
     const std::vector<ParameterSpec> merging = merging_specs();
     specs.insert(specs.end(), merging.begin(), merging.end());
-    specs.push_back({"connections", ParameterType::boolean, "true", "", "Join subpaths by connections, next-event estimation and splats; without them this is bpm.", 0, 0, {}});
-    specs.push_back({"merging", ParameterType::boolean, "true", "", "Join subpaths by merging vertices that lie close; without it this is bdpt.", 0, 0, {}});
+    specs.push_back({"connections",
+                     ParameterType::boolean,
+                     "true",
+                     "",
+                     "Join subpaths by connections, next-event estimation and splats; without them this is bpm.",
+                     0,
+                     0,
+                     {}});
+    specs.push_back({"merging",
+                     ParameterType::boolean,
+                     "true",
+                     "",
+                     "Join subpaths by merging vertices that lie close; without it this is bdpt.",
+                     0,
+                     0,
+                     {}});
     return specs;
 }
 
@@ -33,7 +47,8 @@ const MethodRegistration registration({
     .paper = "Georgiev, Krivanek, Davidovic and Slusallek 2012, ACM TOG 31(6); Hachisuka, Pantaleoni and Jensen 2012, ACM TOG 31(6)",
     .estimator_class = "consistent",
     .error_model = ErrorModel::none,
-    .description = "Bidirectional path tracing and photon mapping under one set of weights: robust on every scene, from diffuse rooms to caustics seen "
+    .description = "Bidirectional path tracing and photon mapping under one set of weights: robust on every scene, from diffuse rooms to "
+                   "caustics seen "
                    "through glass.",
     .parameters = specs(),
     .create = create,

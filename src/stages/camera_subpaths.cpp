@@ -16,8 +16,8 @@ CameraSubpaths::CameraSubpaths(Device& device, const DeviceScene& scene, const C
 
 void CameraSubpaths::shade(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, SamplerKey key, Techniques techniques)
 {
-    shade_camera_subpath_(pool.items(), scene.surfaces(), camera.camera(), key, rules_, techniques, camera.width(), camera.height(), pool.hits,
-                          pool.active(), pool.active_count(), pool.rays, pool.paths, subpaths_, camera.radiance, shadow_.rays,
+    shade_camera_subpath_(pool.items(), scene.surfaces(), camera.camera(), key, rules_, techniques, camera.width(), camera.height(),
+                          pool.hits, pool.active(), pool.active_count(), pool.rays, pool.paths, subpaths_, camera.radiance, shadow_.rays,
                           shadow_.radiance, vertices, pool.flags);
     if (!connects_) return;
     shadow_.trace(scene, pool);

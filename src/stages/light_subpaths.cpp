@@ -5,8 +5,8 @@ namespace sundog
 
 LightSubpaths::LightSubpaths(Device& device, const DeviceScene& scene, const Camera& camera, const LightSubpathSettings& settings)
     : device_(&device), settings_(settings), splats_(device, scene, settings.paths, settings.pixels),
-      subpaths_(device, settings.paths, "light subpaths"), vertices_(device, settings.connects ? 2 * settings.paths : 1, "light vertices"),
-      last_vertices_(device, settings.paths, "last light vertices"),
+      subpaths_(device, settings.paths, "light subpaths"), vertices_(device, settings.connects ? 4 * settings.paths : 1, "light vertices"),
+      links_(device, vertices_.size(), "light vertex links"), last_vertices_(device, settings.paths, "last light vertices"),
       photon_deposits_(device, settings.merges ? settings.paths : 1, "photon deposits"),
       merge_deposits_(device, settings.merges ? settings.paths : 1, "merge weight deposits"),
       photons_(device, "photons", settings.merges ? 2 * settings.paths : 1), merge_weights_(device, "merge weights", photons_.capacity())
@@ -24,6 +24,7 @@ bool LightSubpaths::has_room_for(std::size_t slots)
     if (!settings_.connects || slots <= vertices_.size()) return true;
     vertices_ = {}; // give back before asking for more
     vertices_ = Buffer<PathVertex>(*device_, slots + slots / 2, "light vertices");
+    links_ = Buffer<VertexLink>(*device_, vertices_.size(), "light vertex links");
     return false;
 }
 
@@ -42,7 +43,8 @@ bool LightSubpaths::trace_once(const DeviceScene& scene, const CameraPaths& came
         pool.trace(scene);
         shade_light_subpath_(pool.items(), scene.surfaces(), camera.camera(), camera.filter(), key, settings_.rules, techniques, count,
                              static_cast<uint>(slots_), pool.hits, pool.active(), pool.active_count(), pool.rays, pool.paths, subpaths_,
-                             vertices_, last_vertices_, splats_.shadow_rays(), splats_.deposits, photon_deposits_, merge_deposits_, pool.flags);
+                             vertices_, links_, last_vertices_, splats_.shadow_rays(), splats_.deposits, photon_deposits_, merge_deposits_,
+                             pool.flags);
         slots_ += pool.items();
         if (settings_.connects) splats_.collect(scene, pool);
         if (settings_.merges) {
@@ -65,7 +67,8 @@ bool LightSubpaths::photons_complete()
 void LightSubpaths::trace(const DeviceScene& scene, const CameraPaths& camera, PathPool& pool, SamplerKey key, Techniques techniques)
 {
     // Subpaths are a pure function of the key: where there was no room the same ones come again.
-    while (!trace_once(scene, camera, pool, key, techniques)) {}
+    while (!trace_once(scene, camera, pool, key, techniques)) {
+    }
 }
 
 void LightSubpaths::serialize(StateArchive& archive)

@@ -31,8 +31,9 @@ public:
     // Adds what the lens sees of them.
     void add_splats(Buffer<Vec3>& radiance) { splats_.add_to(radiance); }
 
-    // Vertices lie in slots, bounce by bounce in path order, some of which are empty (rank 0).
+    // Vertices lie in slots, bounce by bounce in path order, some of which are empty (links with rank 0).
     const Buffer<PathVertex>& vertices() const { return vertices_; }
+    const Buffer<VertexLink>& links() const { return links_; }
     const Buffer<uint>& last_vertices() const { return last_vertices_; } // by path, or NO_VERTEX
     std::size_t slots() const { return slots_; }
 
@@ -54,6 +55,7 @@ private:
     LensSplats splats_;
     Buffer<Subpath> subpaths_;
     Buffer<PathVertex> vertices_;
+    Buffer<VertexLink> links_;
     Buffer<uint> last_vertices_;
     std::size_t slots_ = 0, photons_stored_ = 0;
     Buffer<Photon> photon_deposits_;

@@ -36,7 +36,7 @@ std::vector<Estimate> window_estimates(const Scene& scene, const RenderRequest& 
 
 bool uses_photons(const RenderRequest& request)
 {
-    return request.method != "path" && request.method != "ptracer";
+    return request.method != "path" && request.method != "ptracer" && request.method != "bdpt";
 }
 
 // bias: relative error that density estimation is known to make, allowed on top of noise.
@@ -64,7 +64,7 @@ void expect_agreement(const Scene& scene, const std::vector<RenderRequest>& requ
 RenderRequest request(const std::string& method, std::uint64_t iterations, const std::string& extra = "", const std::string& value = "")
 {
     RenderRequest r{method, iterations, {{"sampler", "independent"}, {"max_depth", "6"}}};
-    if (method != "path") r.parameters["photons"] = "16384";
+    if (method != "path") r.parameters["photons"] = method == "bdpt" || method == "vcm" ? "2048" : "16384";
     if (uses_photons(r)) r.parameters["radius"] = "0.01";
     if (method == "photonmapper") r.parameters["caustic_radius"] = "0.01";
     if (!extra.empty()) r.parameters[extra] = value;
@@ -80,7 +80,7 @@ TEST(Agreement, DiffuseBox)
 {
     expect_agreement(cornell_box(size),
                      {request("path", 64), request("ptracer", 16), request("pppm", 16), request("sppm", 16), request("pppm", 16, "direct", "photons"), request("appm", 16),
-                      request("photonmapper", 16)}, edge_bias);
+                      request("photonmapper", 16), request("bdpt", 32), request("vcm", 32), request("bpm", 16)}, edge_bias);
 }
 
 Scene glass_and_mirror_box()
@@ -97,7 +97,7 @@ Scene glass_and_mirror_box()
 TEST(Agreement, GlassAndMirrorSpheres)
 {
     expect_agreement(glass_and_mirror_box(), {request("path", 256), request("pppm", 24), request("sppm", 24), request("cppm", 24), request("ppm", 24),
-                                              request("photonmapper", 24, "relaxation", "5")}, edge_bias);
+                                              request("photonmapper", 24, "relaxation", "5"), request("bdpt", 64), request("vcm", 48), request("bpm", 24)}, edge_bias);
 }
 
 AnimatedTransform between(const Transform& from, const Transform& to)
@@ -147,7 +147,7 @@ TEST(Agreement, MovingCausticsAndCamera)
         between(Transform::translate({-.6, -.6, -.6}), Transform::translate({-.6, -.4, -.6}) * Transform::rotate({1, 2, 0}, 150));
     add_moving(scene, make_quad({-.2f, 0, 0}, {.2f, 0, 0}, {.2f, .3f, 0}, {-.2f, .3f, 0}, 1),
                between(Transform::translate({-.2, -.9, .1}), Transform::translate({.2, -.8, .1}) * Transform::rotate({0, 1, 0}, 60)));
-    expect_agreement(scene, {request("path", 96), request("ptracer", 12), request("pppm", 12), request("sppm", 12)}, edge_bias);
+    expect_agreement(scene, {request("path", 96), request("ptracer", 12), request("pppm", 12), request("sppm", 12), request("bdpt", 24), request("vcm", 24)}, edge_bias);
 }
 
 // Broad reflections are asked for photons; narrow ones are followed, and asked only for what no followed path finds.
@@ -164,7 +164,7 @@ Scene rough_metals_box()
 
 TEST(Agreement, RoughMetals)
 {
-    expect_agreement(rough_metals_box(), {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("pppm", 48, "direct", "photons")},
+    expect_agreement(rough_metals_box(), {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("pppm", 48, "direct", "photons"), request("bdpt", 64), request("vcm", 64), request("bpm", 48)},
                      edge_bias);
 }
 
@@ -178,7 +178,7 @@ Scene ground_glass_box()
 
 TEST(Agreement, GroundGlass)
 {
-    expect_agreement(ground_glass_box(), {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48)}, edge_bias);
+    expect_agreement(ground_glass_box(), {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("bdpt", 64), request("vcm", 64), request("bpm", 48)}, edge_bias);
 }
 
 TEST(LongAgreement, PhotonMapperBesidesGlassAndRoughLobes)
@@ -199,7 +199,7 @@ TEST(Agreement, MirroredPointLightOnNarrowMetal)
     const uint narrow = add_bsdf(scene, ConductorBsdf{{0.2f, 0.9f, 1.1f}, {3.9f, 2.5f, 2.1f}, {}, Roughness{false, 0.12f, 0.12f}});
     scene.shapes.push_back(make_quad({-1, -1, 1.2f}, {-1, -1, 3}, {1, -1, 3}, {1, -1, 1.2f}, mirror));
     scene.shapes.push_back(make_sphere({0, -.35f, .2f}, .6f, narrow));
-    expect_agreement(scene, {request("ptracer", 96), request("pppm", 64), request("sppm", 64), request("pppm", 64, "direct", "photons"), request("photonmapper", 64)}, edge_bias);
+    expect_agreement(scene, {request("ptracer", 96), request("pppm", 64), request("sppm", 64), request("pppm", 64, "direct", "photons"), request("photonmapper", 64), request("bdpt", 96), request("vcm", 96), request("bpm", 64)}, edge_bias);
 }
 
 // The two lobes of plastic, and the parts of a mask and a blend, are chosen anew by each path.
@@ -218,14 +218,14 @@ Scene plastic_spheres(const PlasticBsdf& model)
 TEST(Agreement, RoughPlasticMaskAndBlend)
 {
     const Scene scene = plastic_spheres(PlasticBsdf{1.5f, 1.0f, {.2f, .3f, .7f}, {1, 1, 1}, false, Roughness{false, 0.3f, 0.3f}});
-    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48)}, edge_bias);
+    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("bdpt", 64), request("vcm", 64), request("bpm", 48)}, edge_bias);
 }
 
 // Without ptracer, to which what a smooth coat mirrors is invisible.
 TEST(Agreement, SmoothPlasticMaskAndBlend)
 {
     const Scene scene = plastic_spheres(PlasticBsdf{1.5f, 1.0f, {.6f, .3f, .1f}, {1, 1, 1}, true});
-    expect_agreement(scene, {request("path", 256), request("pppm", 48), request("sppm", 48), request("photonmapper", 48, "final_gather", "false")}, edge_bias);
+    expect_agreement(scene, {request("path", 256), request("pppm", 48), request("sppm", 48), request("photonmapper", 48, "final_gather", "false"), request("bdpt", 64), request("vcm", 64)}, edge_bias);
 }
 
 // Each part of the principled BSDF somewhere: cloth under a coat, brushed metal, tinted ground glass.
@@ -249,7 +249,7 @@ TEST(Agreement, Principled)
     scene.shapes.push_back(make_sphere({.5f, -.65f, .3f}, .33f, add_bsdf(scene, cloth)));
     scene.shapes.push_back(make_sphere({-.4f, .2f, -.3f}, .33f, add_bsdf(scene, metal)));
     scene.shapes.push_back(make_sphere({-.3f, -.6f, .2f}, .38f, add_bsdf(scene, glass)));
-    expect_agreement(scene, {request("path", 96), request("ptracer", 16), request("pppm", 16), request("photonmapper", 16)}, edge_bias);
+    expect_agreement(scene, {request("path", 96), request("ptracer", 16), request("pppm", 16), request("photonmapper", 16), request("bdpt", 32), request("vcm", 32)}, edge_bias);
 }
 
 // A lobe that is asked for photons, and one that is followed.
@@ -260,7 +260,7 @@ TEST(Agreement, Phong)
     const uint narrow = add_bsdf(scene, PhongBsdf{{.1f, .2f, .3f}, {.5f, .6f, .7f}, 60.0f});
     scene.shapes.push_back(make_sphere({.45f, -.6f, .3f}, .4f, broad));
     scene.shapes.push_back(make_sphere({-.45f, -.6f, -.3f}, .4f, narrow));
-    expect_agreement(scene, {request("path", 96), request("ptracer", 16), request("pppm", 16)}, edge_bias);
+    expect_agreement(scene, {request("path", 96), request("ptracer", 16), request("pppm", 16), request("bdpt", 32), request("vcm", 32)}, edge_bias);
 }
 
 // An 8 x 8 bitmap that is different in each texel, and the relief that it makes of a wall with texture coordinates.
@@ -292,7 +292,7 @@ TEST(Agreement, Relief)
         std::get<TriangleMesh>(panel.geometry).uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         scene.shapes.push_back(panel);
     }
-    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48)}, edge_bias);
+    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("bdpt", 64), request("vcm", 64)}, edge_bias);
 }
 
 TEST(Agreement, ThinPaneAndDisk)
@@ -306,7 +306,7 @@ TEST(Agreement, ThinPaneAndDisk)
     disk.geometry = Disk{{0, -.4f, 0}, {.5f, 0, 0}, {0, 0, .5f}};
     disk.bsdf = both_sides;
     scene.shapes.push_back(disk);
-    expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24)}, edge_bias);
+    expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24), request("bdpt", 64), request("vcm", 48)}, edge_bias);
 }
 
 TEST(Agreement, EveryEmitter)
@@ -328,7 +328,7 @@ TEST(Agreement, EveryEmitter)
     scene.emitters.push_back({{}, SpotEmitter{{.3f, .5f, .3f}, {0, -1, 0}, {2, 2, 2}, .5f, .3f}});
     scene.emitters.push_back({{}, DirectionalEmitter{normalize(Vec3{.2f, -.3f, -1}), {.5f, .5f, .5f}}});
     scene.emitters.push_back({{}, ConstantEmitter{{.2f, .2f, .2f}}});
-    expect_agreement(scene, {request("path", 128), request("ptracer", 32), request("pppm", 32), request("sppm", 32), request("photonmapper", 32)}, edge_bias);
+    expect_agreement(scene, {request("path", 128), request("ptracer", 32), request("pppm", 32), request("sppm", 32), request("photonmapper", 32), request("bdpt", 48), request("vcm", 48), request("bpm", 32)}, edge_bias);
 }
 
 // The box without ceiling, back wall and lamp, with a ball, under a turned map.
@@ -345,7 +345,7 @@ Scene scene_under_a_map(std::shared_ptr<const TexelImage> image)
 TEST(Agreement, EnvironmentMap)
 {
     expect_agreement(scene_under_a_map(random_environment(16, 9, 30.0f)),
-                     {request("path", 128), request("ptracer", 64), request("pppm", 32), request("sppm", 32), request("pppm", 32, "direct", "photons")}, edge_bias);
+                     {request("path", 128), request("ptracer", 64), request("pppm", 32), request("sppm", 32), request("pppm", 32, "direct", "photons"), request("bdpt", 64), request("vcm", 64), request("bpm", 32)}, edge_bias);
 }
 
 TEST(Agreement, AWhiteMapIsAConstantEnvironment)
@@ -375,7 +375,7 @@ Scene orthographic_box()
 
 TEST(Agreement, Orthographic)
 {
-    expect_agreement(orthographic_box(), {request("path", 64), request("ptracer", 16), request("pppm", 16)}, edge_bias);
+    expect_agreement(orthographic_box(), {request("path", 64), request("ptracer", 16), request("pppm", 16), request("bdpt", 32), request("vcm", 32)}, edge_bias);
 }
 
 TEST(Agreement, Telecentric)
@@ -383,7 +383,7 @@ TEST(Agreement, Telecentric)
     Scene scene = orthographic_box();
     scene.sensor.aperture_radius = .15f;
     scene.sensor.focus_distance = 3.5f;
-    expect_agreement(scene, {request("path", 64), request("ptracer", 16)}, edge_bias);
+    expect_agreement(scene, {request("path", 64), request("ptracer", 16), request("bdpt", 32)}, edge_bias);
 }
 
 TEST(Agreement, PrincipalPointAndCrop)
