@@ -9,7 +9,7 @@
 // Light vertices lie bounce by bounce: memory would be waited for at each.
 #define PAIRS_AHEAD 8u
 
-__kernel void connect_vertices(SURFACE_PARAMETERS, PathRules rules, Techniques techniques, uint count,
+__kernel void connect_vertices(SURFACE_PARAMETERS, PathRules rules, Techniques techniques, float scale, uint count,
                                __global const VertexPair* restrict pairs, __global const PathVertex* restrict camera_vertices,
                                __global const PathVertex* restrict light_vertices, __global Ray* restrict shadow_rays,
                                __global Vec3* restrict radiance)
@@ -18,8 +18,9 @@ __kernel void connect_vertices(SURFACE_PARAMETERS, PathRules rules, Techniques t
     if (item >= count) return;
     shadow_rays[item].t_max = 0.0f;
     const VertexPair pair = pairs[item];
-    __global const char* soon = (__global const char*)(light_vertices + pairs[min(item + PAIRS_AHEAD, count - 1u)].slot);
-    prefetch256(soon);
+    const uint soon = pairs[min(item + PAIRS_AHEAD, count - 1u)].slot;
+    if (soon != NO_VERTEX) prefetch256(light_vertices + soon);
+    if (pair.slot == NO_VERTEX) return;
     __global const PathVertex* camera_vertex = camera_vertices + pair.path;
     __global const PathVertex* light_vertex = light_vertices + pair.slot;
     const uint edges = camera_vertex->depth + light_vertex->depth + 1u;
@@ -46,6 +47,6 @@ __kernel void connect_vertices(SURFACE_PARAMETERS, PathRules rules, Techniques t
     const float camera_share =
         connection_share(camera_vertex->weights, techniques, bsdf_pdf_w(&at_light, &lit, -direction) * cos_seen / distance_squared,
                          bsdf_reverse_pdf_w(&at_camera, &seen, direction));
-    radiance[item] = pack(value * joint_weight(light_share, camera_share));
+    radiance[item] = pack(value * (scale * joint_weight(light_share, camera_share)));
     shadow_rays[item] = segment(ray_origin(&seen, direction), ray_origin(&lit, -direction));
 }

@@ -16,7 +16,7 @@ const MethodRegistration registration({
     .description =
         "Connects subpaths from the camera and from the lights in every way, weighted by the balance heuristic. For light that comes round "
         "corners and for caustics seen directly; blind to caustics seen in mirrors or through glass.",
-    .parameters = bidirectional_specs(),
+    .parameters = joined(bidirectional_specs(), connection_specs({"own", "resampled"})),
     .create =
         [](RenderContext& context, const Parameters& parameters) {
             return make_bidirectional(context, parameters, {true, false});

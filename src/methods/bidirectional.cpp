@@ -15,6 +15,18 @@ namespace sundog
 namespace
 {
 
+// Where connections find what merging would only blur, photons are wanted for light that nothing else finds: few will do.
+constexpr double pixels_beside_connections = 1.0;
+
+std::unique_ptr<ConnectionList> connection_list(Device& device, const Parameters& parameters, std::size_t paths)
+{
+    const bool resampled = parameters.text("connections") == "resampled";
+    if (!resampled && parameters.is_set("picks"))
+        parameters.refuse("picks", "picks is for light vertices that are resampled; use -p connections=resampled");
+    return resampled ? make_resampled_connections(device, paths, static_cast<uint>(parameters.integer("picks")))
+                     : make_own_connections(device, paths);
+}
+
 class Bidirectional final : public Method
 {
 public:
@@ -28,9 +40,12 @@ public:
                            joined_by.connections),
           pool_(context.device, context.scene, std::max(light_subpaths_.paths(), camera_.count()))
     {
-        if (joined_by.connections) connections_.emplace(context.device, context.scene, camera_.count(), path_rules(parameters));
+        if (joined_by.connections)
+            connections_.emplace(context.device, context.scene, camera_.count(), path_rules(parameters),
+                                 connection_list(context.device, parameters, camera_.count()));
         if (!joined_by.merging) return;
-        first_radius_ = first_radius(context, parameters);
+        first_radius_ =
+            joined_by.connections ? first_radius(context, parameters, pixels_beside_connections) : first_radius(context, parameters);
         alpha_ = parameters.real("alpha");
         merging_.emplace(context.device, context.scene, path_rules(parameters), density_kernel(parameters));
     }
@@ -49,7 +64,8 @@ public:
         for (;;) {
             camera_subpaths_.shade(context_.scene, camera_, pool_, key, techniques);
             if (connections_)
-                connections_->connect(context_.scene, pool_, camera_subpaths_, light_subpaths_, key, techniques, camera_.radiance);
+                connections_->connect(context_.scene, {pool_, camera_, camera_subpaths_, light_subpaths_, key}, techniques,
+                                      camera_.radiance);
             if (merging_) merging_->merge(pool_, camera_subpaths_, techniques, camera_.radiance);
             if (!pool_.keep_alive()) break;
             pool_.trace(context_.scene);
@@ -97,6 +113,34 @@ private:
 std::unique_ptr<Method> make_bidirectional(RenderContext& context, const Parameters& parameters, JoinedBy joined_by)
 {
     return std::make_unique<Bidirectional>(context, parameters, joined_by);
+}
+
+bool has_connections(const Parameters& parameters)
+{
+    return parameters.text("connections") != "none";
+}
+
+std::vector<ParameterSpec> joined(std::vector<ParameterSpec> first, const std::vector<ParameterSpec>& second)
+{
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
+std::vector<ParameterSpec> connection_specs(const std::vector<std::string>& choices)
+{
+    return {
+        {"connections", ParameterType::choice, "own", "",
+         "Light vertices that a camera vertex connects to: all of one light subpath, its own, or some that are resampled from all light "
+         "subpaths (Davidovic et al. 2014); none also leaves out next-event estimation and light tracing.",
+         0, 0, choices},
+        {"picks",
+         ParameterType::integer,
+         "1",
+         "vertices",
+         "How many light vertices each camera vertex connects to where they are resampled.",
+         1,
+         4,
+         {}}};
 }
 
 std::vector<ParameterSpec> bidirectional_specs()

@@ -13,10 +13,16 @@ struct JoinedBy {
     bool merging = true;
 };
 
+// What `connections` says.
+bool has_connections(const Parameters& parameters);
+
 std::unique_ptr<Method> make_bidirectional(RenderContext& context, const Parameters& parameters, JoinedBy joined_by);
 
-// What they have in common, and what merging adds.
+// What they have in common, and what connections and merging add. choices: of `connections`.
 std::vector<ParameterSpec> bidirectional_specs();
+std::vector<ParameterSpec> connection_specs(const std::vector<std::string>& choices);
 std::vector<ParameterSpec> merging_specs();
+
+std::vector<ParameterSpec> joined(std::vector<ParameterSpec> first, const std::vector<ParameterSpec>& second);
 
 } // namespace sundog

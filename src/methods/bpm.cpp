@@ -8,14 +8,6 @@ namespace sundog
 namespace
 {
 
-std::vector<ParameterSpec> specs()
-{
-    std::vector<ParameterSpec> specs = bidirectional_specs();
-    const std::vector<ParameterSpec> merging = merging_specs();
-    specs.insert(specs.end(), merging.begin(), merging.end());
-    return specs;
-}
-
 const MethodRegistration registration({
     .name = "bpm",
     .title = "Bidirectional photon mapping",
@@ -25,7 +17,7 @@ const MethodRegistration registration({
     .description =
         "Merges photons at every vertex of the camera's path, weighted by the balance heuristic: vcm without connections. Does for glossy "
         "surfaces what final gathering does for diffuse ones.",
-    .parameters = specs(),
+    .parameters = joined(bidirectional_specs(), merging_specs()),
     .create =
         [](RenderContext& context, const Parameters& parameters) {
             return make_bidirectional(context, parameters, {false, true});

@@ -29,10 +29,10 @@ PathRules query_rules(const Parameters& parameters)
     return {path_rules(parameters).max_depth, rr_depth};
 }
 
-float first_radius(const RenderContext& context, const Parameters& parameters)
+float first_radius(const RenderContext& context, const Parameters& parameters, double target_pixels)
 {
     return initial_radius(parameters, context.scene.radius(), light_path_count(parameters, context.film.pixel_count()),
-                          pixel_footprint(context.camera, context.scene.bounds()));
+                          pixel_footprint(context.camera, context.scene.bounds()), target_pixels);
 }
 
 } // namespace sundog

@@ -40,6 +40,6 @@ public:
 PathRules query_rules(const Parameters& parameters);
 
 // The radius of the first iteration: the parameter, or what suits the scene.
-float first_radius(const RenderContext& context, const Parameters& parameters);
+float first_radius(const RenderContext& context, const Parameters& parameters, double target_pixels = usual_target_pixels);
 
 } // namespace sundog

@@ -11,8 +11,6 @@ namespace {
 constexpr double unlimited = 1e15;
 // Photons that a query should find in the first iteration.
 constexpr double target_photons = 10.0;
-// Pixels across its radius at most: a larger one blurs what a longer render would have to sharpen again.
-constexpr double target_pixels = 4.0;
 
 } // namespace
 
@@ -138,7 +136,7 @@ float pixel_footprint(const Camera& camera, const Bounds& scene)
     return distance * width;
 }
 
-float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths, float pixel_footprint)
+float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths, float pixel_footprint, double target_pixels)
 {
     const double radius = parameters.real("radius");
     if (radius > 0.0) return static_cast<float>(radius);

@@ -35,9 +35,13 @@ std::size_t light_path_count(const Parameters& parameters, std::size_t pixels);
 // Width (scene units) of a pixel where the camera sees the middle of the scene.
 float pixel_footprint(const Camera& camera, const Bounds& scene);
 
+// Pixels across a query's radius at most: a larger one blurs what a longer render would have to sharpen again.
+constexpr double usual_target_pixels = 4.0;
+
 // `radius`, or, when that is 0, the smaller of two: one within which a query finds a handful of photons if they
 // spread evenly over a sphere around the scene, and a few pixels. Both scale with the scene.
-float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths, float pixel_footprint);
+float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths, float pixel_footprint,
+                     double target_pixels = usual_target_pixels);
 
 // Radius of iteration i (from 0) in the schedule r_{i+1}^d = r_i^d (i + alpha) / (i + 1), i from 1
 // [Knaus and Zwicker 2011, eq. 20], closed by the gamma function so that any iteration can be asked for.

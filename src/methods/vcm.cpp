@@ -9,33 +9,14 @@ namespace sundog
 namespace
 {
 
-std::vector<ParameterSpec> specs()
+ParameterSpec merging_spec()
 {
-    std::vector<ParameterSpec> specs = bidirectional_specs();
-    const std::vector<ParameterSpec> merging = merging_specs();
-    specs.insert(specs.end(), merging.begin(), merging.end());
-    specs.push_back({"connections",
-                     ParameterType::boolean,
-                     "true",
-                     "",
-                     "Join subpaths by connections, next-event estimation and splats; without them this is bpm.",
-                     0,
-                     0,
-                     {}});
-    specs.push_back({"merging",
-                     ParameterType::boolean,
-                     "true",
-                     "",
-                     "Join subpaths by merging vertices that lie close; without it this is bdpt.",
-                     0,
-                     0,
-                     {}});
-    return specs;
+    return {"merging", ParameterType::boolean, "true", "", "Merge vertices that lie close; without it this is bdpt.", 0, 0, {}};
 }
 
 std::unique_ptr<Method> create(RenderContext& context, const Parameters& parameters)
 {
-    const JoinedBy joined_by = {parameters.boolean("connections"), parameters.boolean("merging")};
+    const JoinedBy joined_by = {has_connections(parameters), parameters.boolean("merging")};
     if (!joined_by.connections && !joined_by.merging)
         parameters.refuse("merging", "vcm cannot do without both connections and merging: nothing would join its subpaths");
     return make_bidirectional(context, parameters, joined_by);
@@ -50,7 +31,8 @@ const MethodRegistration registration({
     .description = "Bidirectional path tracing and photon mapping under one set of weights: robust on every scene, from diffuse rooms to "
                    "caustics seen "
                    "through glass.",
-    .parameters = specs(),
+    .parameters = joined(joined(joined(bidirectional_specs(), connection_specs({"own", "resampled", "none"})), merging_specs()),
+                         {merging_spec()}),
     .create = create,
 });
 

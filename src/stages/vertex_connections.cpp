@@ -20,38 +20,31 @@ std::vector<uint> first_numbers(std::size_t count)
 
 } // namespace
 
-VertexConnections::VertexConnections(Device& device, const DeviceScene& scene, std::size_t count, PathRules rules)
-    : capacity_(pairs_per_path * count), rules_(rules), count_connections_(device, "count_connections", "Count connections"),
-      scan_counts_(device, "scan_counts", "Scan counts"), list_connections_(device, "list_connections", "List connections"),
-      connect_vertices_(device, "connect_vertices", "Connect vertices", scene.surface_options()),
+VertexConnections::VertexConnections(Device& device, const DeviceScene& scene, std::size_t paths, PathRules rules,
+                                     std::unique_ptr<ConnectionList> list)
+    : rules_(rules), list_(std::move(list)), connect_vertices_(device, "connect_vertices", "Connect vertices", scene.surface_options()),
       add_connections_(device, "add_connections", "Add connections"),
       trace_any_(device, "trace_any", "Trace shadow rays", scene.trace_options()),
-      chunk_counts_(device, Compaction::chunks_of(count), "connection counts"), total_(device, 1, "connections"),
-      firsts_(device, count + 1, "first connections"), all_(device, first_numbers(capacity_), "connection numbers"),
-      count_(device, 1, "connection count"), pairs_(device, capacity_, "connected vertices"),
-      shadow_rays_(device, capacity_, "shadow rays"), radiance_(device, capacity_, "connected radiance"),
-      occluded_(device, capacity_, "shadow results")
+      pairs_(device, pairs_per_path * paths, "connected vertices"), firsts_(device, paths + 1, "first connections"),
+      all_(device, first_numbers(pairs_.size()), "connection numbers"), count_(device, 1, "connection count"),
+      shadow_rays_(device, pairs_.size(), "shadow rays"), radiance_(device, pairs_.size(), "connected radiance"),
+      occluded_(device, pairs_.size(), "shadow results")
 {
 }
 
-void VertexConnections::connect(const DeviceScene& scene, PathPool& pool, const CameraSubpaths& camera, const LightSubpaths& light,
-                                SamplerKey key, Techniques techniques, Buffer<Vec3>& radiance)
+void VertexConnections::connect(const DeviceScene& scene, const ConnectedSubpaths& subpaths, Techniques techniques, Buffer<Vec3>& radiance)
 {
-    const uint chunks = static_cast<uint>(Compaction::chunks_of(pool.items())), light_paths = static_cast<uint>(light.paths());
-    count_connections_(chunks, key, light_paths, pool.active(), pool.active_count(), pool.flags, light.last_vertices(), light.links(),
-                       chunks, chunk_counts_);
-    scan_counts_.launch_grouped(1, 1, chunk_counts_, chunks, 0u, total_);
-    const std::size_t total = total_.read(0);
-    for (std::size_t window = 0; window < total; window += capacity_) {
-        const std::size_t count = std::min(capacity_, total - window);
-        list_connections_(chunks, key, light_paths, pool.active(), pool.active_count(), pool.flags, light.last_vertices(), light.links(),
-                          chunks, chunk_counts_, static_cast<uint>(window), static_cast<uint>(capacity_), firsts_, pairs_);
-        connect_vertices_(count, scene.surfaces(), rules_, techniques, static_cast<uint>(count), pairs_, camera.vertices, light.vertices(),
-                          shadow_rays_, radiance_);
+    const PathPool& pool = subpaths.pool;
+    const std::size_t total = list_->count(subpaths);
+    for (std::size_t window = 0; window < total; window += pairs_.size()) {
+        const std::size_t count = std::min(pairs_.size(), total - window);
+        list_->list(subpaths, window, firsts_, pairs_);
+        connect_vertices_(count, scene.surfaces(), rules_, techniques, list_->scale(subpaths.light_subpaths), static_cast<uint>(count),
+                          pairs_, subpaths.camera_subpaths.vertices, subpaths.light_subpaths.vertices(), shadow_rays_, radiance_);
         count_.fill(static_cast<uint>(count));
         trace_any_(count, scene.geometry(), shadow_rays_, all_, count_, occluded_);
-        add_connections_(pool.items(), pool.active(), pool.active_count(), firsts_, static_cast<uint>(window), static_cast<uint>(count),
-                         occluded_, radiance_, radiance);
+        add_connections_(pool.items(), subpaths.pool.active(), pool.active_count(), firsts_, static_cast<uint>(window),
+                         static_cast<uint>(count), occluded_, radiance_, radiance);
     }
 }
 

@@ -215,9 +215,9 @@ TEST_F(ProgressiveStage, LocalRadiiFollowTheRecurrence)
 TEST_F(ProgressiveStage, FreeSplatsBecomeDeposits)
 {
     const std::vector<uint> active = {3, 1, 0}, occluded = {0, 1, 0, 0};
-    const auto flags = upload(std::vector<uint>{PATH_ALIVE, PATH_ALIVE, PATH_ENDED});
+    const auto flags = upload(std::vector<uint>(3, 77u));
     Kernel(device_, "flag_unoccluded", "Flag")(3, upload(active), upload(std::vector<uint>{3}), upload(occluded), flags);
-    EXPECT_EQ(flags.download(), (std::vector<uint>{PATH_ALIVE | PATH_DEPOSIT, PATH_ALIVE, PATH_DEPOSIT}));
+    EXPECT_EQ(flags.download(), (std::vector<uint>{PATH_DEPOSIT, PATH_ENDED, PATH_DEPOSIT}));
 }
 
 // All of a pass in one pixel, as of a collimated beam: 131072 additions would lose a third of a percent in float.
