@@ -14,7 +14,7 @@ using namespace sundog::test;
 namespace {
 
 constexpr int replicates = 10;
-constexpr int tests_in_file = 72; // bounds the family for the Bonferroni correction below
+constexpr int tests_in_file = 96; // bounds the family for the Bonferroni correction below
 
 // The number after "answer:" in the scene's comment.
 double answer_of(const std::string& scene)
@@ -43,7 +43,7 @@ std::string name_of(const testing::TestParamInfo<Case>& info)
 {
     std::string name = info.param.scene + "_" + info.param.method;
     for (const auto& [key, value] : info.param.parameters)
-        if (key == "direct" || key == "kernel" || key == "radius_policy" || key == "sampler" || key == "lookup") name += "_" + value;
+        if (key == "direct" || key == "kernel" || key == "radius_policy" || key == "sampler" || key == "lookup" || key == "connections") name += "_" + value;
         else if (key == "final_gather") name += "_final_gather_" + value;
     for (char& c : name)
         if (c == '-') c = '_';
@@ -103,6 +103,23 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"furnace", "ppm", {{"radius", "0.1"}}}, Case{"parallel-light", "ppm", {{"radius", "0.2"}, {"photons", "32768"}}},
                     Case{"furnace", "cppm", {{"radius", "0.1"}, {"direct", "photons"}}},
                     Case{"parallel-light", "cppm", {{"radius", "0.2"}, {"direct", "photons"}, {"photons", "32768"}}}),
+    name_of);
+
+// Where nothing is merged there is no blur; where all is, what is derived above.
+INSTANTIATE_TEST_SUITE_P(
+    Bidirectional, AnalyticScenes,
+    testing::Values(Case{"furnace", "bdpt", {}}, Case{"furnace", "bdpt", {{"connections", "resampled"}, {"picks", "3"}}}, Case{"sphere-furnace", "bdpt", {}},
+                    Case{"parallel-light", "bdpt", {}}, Case{"point-over-plane", "bdpt", {}}, Case{"sphere-light", "bdpt", {}},
+                    Case{"glass-in-white", "bdpt", {}}, Case{"orthographic-plane", "bdpt", {}}, Case{"collimated-beam", "bdpt", {}},
+                    Case{"furnace", "vcm", {{"radius", "0.02"}}}, Case{"sphere-furnace", "vcm", {{"radius", "0.1"}}},
+                    Case{"parallel-light", "vcm", {{"radius", "0.2"}}}, Case{"point-over-plane", "vcm", {{"radius", "0.05"}}, blur(0.05, 1.0 / 4, 1)},
+                    Case{"sphere-light", "vcm", {{"radius", "0.05"}, {"photons", "65536"}}, blur(0.05, 1.0 / 4, 2)}, Case{"glass-in-white", "vcm", {}},
+                    Case{"orthographic-plane", "vcm", {}}, Case{"collimated-beam", "vcm", {{"radius", "0.05"}}},
+                    Case{"furnace", "bpm", {{"radius", "0.02"}}, 2 * 0.02 * 0.21}, Case{"sphere-furnace", "bpm", {{"radius", "0.1"}}},
+                    Case{"parallel-light", "bpm", {{"radius", "0.2"}, {"photons", "32768"}}}, Case{"glass-in-white", "bpm", {}},
+                    Case{"point-over-plane", "bpm", {{"radius", "0.05"}, {"photons", "65536"}}, blur(0.05, 1.0 / 4, 1)},
+                    Case{"sphere-light", "bpm", {{"radius", "0.08"}, {"photons", "65536"}}, blur(0.08, 1.0 / 4, 2)},
+                    Case{"orthographic-plane", "bpm", {}}),
     name_of);
 
 // The map is traced once for all iterations; light straight from its source is in the caustic map if it is in any.

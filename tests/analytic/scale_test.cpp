@@ -39,7 +39,7 @@ TEST(ScaleFree, FurnaceKeepsItsRadiance)
 {
     for (const Size& size : sizes) {
         const Scene scene = scaled(load_test_scene("analytic/furnace.xml"), size.scale, size.offset);
-        for (const char* method : {"path", "sppm"}) {
+        for (const char* method : {"path", "sppm", "vcm"}) {
             RenderRequest request{method, 16, {{"sampler", "independent"}}};
             if (request.method == "sppm") request.parameters["photons"] = "8192"; // automatic radius: 0.06 sides of the box
             const Estimate estimate = estimate_image_mean(scene, request, 8);

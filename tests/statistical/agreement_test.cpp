@@ -80,7 +80,7 @@ TEST(Agreement, DiffuseBox)
 {
     expect_agreement(cornell_box(size),
                      {request("path", 64), request("ptracer", 16), request("pppm", 16), request("sppm", 16), request("pppm", 16, "direct", "photons"), request("appm", 16),
-                      request("photonmapper", 16), request("bdpt", 32), request("vcm", 32), request("bpm", 16)}, edge_bias);
+                      request("photonmapper", 16), request("bdpt", 32, "connections", "resampled"), request("bdpt", 32), request("vcm", 32), request("bpm", 16)}, edge_bias);
 }
 
 Scene glass_and_mirror_box()

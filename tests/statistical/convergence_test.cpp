@@ -72,7 +72,8 @@ Slope mse_slope(const RenderRequest& request, std::uint64_t first, int doublings
 TEST(Convergence, UnbiasedMethodsErrorFallsAsOneOverN)
 {
     for (const RenderRequest& request :
-         {RenderRequest{"path", 0, {{"sampler", "independent"}}}, RenderRequest{"ptracer", 0, {{"sampler", "independent"}, {"photons", "1024"}}}}) {
+         {RenderRequest{"path", 0, {{"sampler", "independent"}}}, RenderRequest{"ptracer", 0, {{"sampler", "independent"}, {"photons", "1024"}}},
+          RenderRequest{"bdpt", 0, {{"sampler", "independent"}, {"photons", "1024"}}}}) {
         const Slope slope = mse_slope(request, 4, 5, 16);
         EXPECT_LT(slope.standard_error, 0.05) << request.method;
         EXPECT_NEAR(slope.value, -1.0, 3.5 * slope.standard_error) << request.method;
@@ -88,6 +89,14 @@ TEST(Convergence, PppmErrorFallsAsNToTheMinusTwoThirds)
     EXPECT_LT(slope.standard_error, 0.05);
     // Averages over a schedule reach their asymptote slowly: sum_{i<=n} i^(-1/3) = 1.5 n^(2/3) - 0.97 + ...
     // steepens or flattens the slope between 32 and 1024 iterations by less than 0.02.
+    EXPECT_NEAR(slope.value, -2.0 / 3.0, 3.5 * slope.standard_error + 0.02);
+}
+
+// Light by merging alone: as pppm.
+TEST(Convergence, BpmErrorFallsAsNToTheMinusTwoThirds)
+{
+    const Slope slope = mse_slope({"bpm", 0, {{"sampler", "independent"}, {"photons", "2048"}, {"radius", "0.25"}, {"alpha", "0.66666667"}}}, 32, 5, 16);
+    EXPECT_LT(slope.standard_error, 0.05);
     EXPECT_NEAR(slope.value, -2.0 / 3.0, 3.5 * slope.standard_error + 0.02);
 }
 
