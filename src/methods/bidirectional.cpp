@@ -145,17 +145,19 @@ std::vector<ParameterSpec> connection_specs(const std::vector<std::string>& choi
 
 std::vector<ParameterSpec> bidirectional_specs()
 {
-    return {photons_spec(),  max_depth_spec(), rr_depth_spec(5, "subpaths, by throughput"), sampler_spec(), light_choice_spec(),
+    return {photons_spec(),  max_depth_spec(), rr_depth_spec(5, "subpaths: of the camera by throughput, of lights by albedo"), sampler_spec(), light_choice_spec(),
             spectral_spec(), iterations_spec()};
 }
 
 std::vector<ParameterSpec> merging_specs()
 {
+    ParameterSpec radius = radius_spec();
+    radius.description = "Radius of the first iteration's merges; 0: a pixel beside connections, a few without, or less where light subpaths are many.";
     ParameterSpec alpha = alpha_spec();
     alpha.default_value = "0.75";
     alpha.description =
         "How slowly the radius shrinks (Knaus and Zwicker 2011): 2/3 is best where merging finds most of the light, 1 keeps it.";
-    return {radius_spec(), alpha, kernel_spec("uniform")};
+    return {radius, alpha, kernel_spec("uniform")};
 }
 
 } // namespace sundog

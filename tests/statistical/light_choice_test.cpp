@@ -110,7 +110,9 @@ TEST(LightChoice, TreeAndPowerAgree)
     const Scene scene = furnished_box();
     expect_agreement({{"path by tree", &scene, request("path", 48, {{"light_choice", "tree"}})},
                       {"path by power", &scene, request("path", 48, {{"light_choice", "power"}})},
-                      {"pppm by tree", &scene, request("pppm", 12, {{"light_choice", "tree"}})}},
+                      {"pppm by tree", &scene, request("pppm", 12, {{"light_choice", "tree"}})},
+                      {"bdpt by tree", &scene, request("bdpt", 24, {{"light_choice", "tree"}, {"photons", "1024"}})},
+                      {"vcm by tree", &scene, request("vcm", 24, {{"light_choice", "tree"}, {"photons", "1024"}, {"radius", "0.02"}})}},
                      0.01);
 }
 
