@@ -8,19 +8,35 @@
 // Photons whose normal is further than this from the query's lie on another surface.
 #define MIN_NORMAL_COSINE 0.7f
 
+// Eight vectors, not of unit length, of octahedral points.
+static inline Offset8 unfold_octahedral(float8 x, float8 y)
+{
+    const float8 z = 1.0f - fabs(x) - fabs(y);
+    const float8 fold = z < 0.0f ? -z : (float8)(0.0f);
+    const Offset8 v = {x - copysign(fold, x), y - copysign(fold, y), z};
+    return v;
+}
+
+// Eight unit vectors that pack_direction packed.
+static inline Offset8 unpack_directions(uint8 packed)
+{
+    const float8 x = convert_float8(as_int8(packed & 0xffffu)) * (1.0f / 32768.0f) + (0.5f / 32768.0f - 1.0f);
+    const float8 y = convert_float8(as_int8(packed >> 16)) * (1.0f / 32768.0f) + (0.5f / 32768.0f - 1.0f);
+    const Offset8 v = unfold_octahedral(x, y);
+    const float8 scale = 1.0f / sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    const Offset8 unit = {v.x * scale, v.y * scale, v.z * scale};
+    return unit;
+}
+
 // Lanes whose packed normal is close to the query's (or, for a lobe that transmits, to its opposite): n . m > c |m| for the
 // unnormalised octahedral m, c being `least`.
 static inline int8 on_same_side(uint8 packed, float3 normal, bool both_sides, float least)
 {
-    float8 x = convert_float8(as_int8(packed & 0xfffu)) * (1.0f / 2048.0f) - (2047.5f / 2048.0f);
-    float8 y = convert_float8(as_int8((packed >> 12) & 0xfffu)) * (1.0f / 2048.0f) - (2047.5f / 2048.0f);
-    const float8 ax = fabs(x), ay = fabs(y);
-    const float8 z = 1.0f - ax - ay;
-    const float8 fold = z < 0.0f ? -z : (float8)(0.0f);
-    x -= copysign(fold, x);
-    y -= copysign(fold, y);
-    const float8 cosine = x * normal.x + y * normal.y + z * normal.z;
-    return ((cosine > 0.0f) | (int8)(both_sides ? -1 : 0)) & (cosine * cosine > (least * least) * (x * x + y * y + z * z));
+    const float8 x = convert_float8(as_int8(packed & 0xfffu)) * (1.0f / 2048.0f) - (2047.5f / 2048.0f);
+    const float8 y = convert_float8(as_int8((packed >> 12) & 0xfffu)) * (1.0f / 2048.0f) - (2047.5f / 2048.0f);
+    const Offset8 m = unfold_octahedral(x, y);
+    const float8 cosine = m.x * normal.x + m.y * normal.y + m.z * normal.z;
+    return ((cosine > 0.0f) | (int8)(both_sides ? -1 : 0)) & (cosine * cosine > (least * least) * (m.x * m.x + m.y * m.y + m.z * m.z));
 }
 
 static inline float8 load_stream(__global const float* streams, uint stream, uint stride, uint i) { return vload8(0, streams + (size_t)stream * stride + i); }

@@ -15,8 +15,8 @@ namespace sundog
 namespace
 {
 
-// Where connections find what merging would only blur, photons are wanted for light that nothing else finds: few will do.
-constexpr double pixels_beside_connections = 1.0;
+// Where connections find what merging would only blur, photons are wanted for light that nothing else finds: fewer will do.
+constexpr double pixels_beside_connections = 2.0;
 
 std::unique_ptr<ConnectionList> connection_list(Device& device, const Parameters& parameters, std::size_t paths)
 {
@@ -152,7 +152,7 @@ std::vector<ParameterSpec> bidirectional_specs()
 std::vector<ParameterSpec> merging_specs()
 {
     ParameterSpec radius = radius_spec();
-    radius.description = "Radius of the first iteration's merges; 0: a pixel beside connections, a few without, or less where light subpaths are many.";
+    radius.description = "Radius of the first iteration's merges; 0: two pixels beside connections, four without, or less where light subpaths are many.";
     ParameterSpec alpha = alpha_spec();
     alpha.default_value = "0.75";
     alpha.description =
