@@ -145,7 +145,7 @@ std::vector<ParameterSpec> connection_specs(const std::vector<std::string>& choi
 
 std::vector<ParameterSpec> bidirectional_specs()
 {
-    return {photons_spec(),  max_depth_spec(), rr_depth_spec(5, "subpaths: of the camera by throughput, of lights by albedo"), sampler_spec(), light_choice_spec(),
+    return {photons_spec(),  max_depth_spec(), rr_depth_spec(2, "subpaths: of the camera by throughput, of lights by albedo"), sampler_spec(), light_choice_spec(),
             spectral_spec(), iterations_spec()};
 }
 

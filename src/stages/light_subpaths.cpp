@@ -18,13 +18,19 @@ LightSubpaths::LightSubpaths(Device& device, const DeviceScene& scene, const Cam
     shade_light_subpath_ = Kernel(device, "shade_light_subpath", "Shade light subpaths", options);
 }
 
+void LightSubpaths::reserve_slots(std::size_t slots)
+{
+    vertices_ = {}; // give back before asking for more
+    links_ = {};
+    vertices_ = Buffer<PathVertex>(*device_, slots, "light vertices");
+    links_ = Buffer<VertexLink>(*device_, slots, "light vertex links");
+}
+
 // Vertices of earlier bounces are lost where there was none.
 bool LightSubpaths::has_room_for(std::size_t slots)
 {
     if (!settings_.connects || slots <= vertices_.size()) return true;
-    vertices_ = {}; // give back before asking for more
-    vertices_ = Buffer<PathVertex>(*device_, slots + slots / 2, "light vertices");
-    links_ = Buffer<VertexLink>(*device_, vertices_.size(), "light vertex links");
+    reserve_slots(slots + slots / 2);
     return false;
 }
 
@@ -76,6 +82,10 @@ void LightSubpaths::serialize(StateArchive& archive)
     splats_.serialize(archive);
     photons_.serialize(archive);
     merge_weights_.serialize(archive);
+    // As with records: a resumed render would trace again what it has no room for, and count rays twice.
+    std::uint64_t slots = vertices_.size();
+    archive.value("light vertex slots", slots);
+    if (slots != vertices_.size()) reserve_slots(static_cast<std::size_t>(slots));
 }
 
 } // namespace sundog

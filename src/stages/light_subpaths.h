@@ -46,6 +46,7 @@ public:
 
 private:
     bool trace_once(const DeviceScene& scene, const CameraPaths& camera, PathPool& pool, SamplerKey key, Techniques techniques);
+    void reserve_slots(std::size_t slots);
     bool has_room_for(std::size_t slots);
     bool photons_complete();
 

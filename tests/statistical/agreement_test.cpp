@@ -164,7 +164,7 @@ Scene rough_metals_box()
 
 TEST(Agreement, RoughMetals)
 {
-    expect_agreement(rough_metals_box(), {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("pppm", 48, "direct", "photons"), request("bdpt", 64), request("vcm", 64), request("bpm", 48)},
+    expect_agreement(rough_metals_box(), {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("pppm", 48, "direct", "photons"), request("bdpt", 48), request("vcm", 48)},
                      edge_bias);
 }
 
@@ -178,7 +178,7 @@ Scene ground_glass_box()
 
 TEST(Agreement, GroundGlass)
 {
-    expect_agreement(ground_glass_box(), {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("bdpt", 64), request("vcm", 64), request("bpm", 48)}, edge_bias);
+    expect_agreement(ground_glass_box(), {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("bdpt", 48), request("vcm", 48)}, edge_bias);
 }
 
 TEST(LongAgreement, PhotonMapperBesidesGlassAndRoughLobes)
@@ -199,7 +199,7 @@ TEST(Agreement, MirroredPointLightOnNarrowMetal)
     const uint narrow = add_bsdf(scene, ConductorBsdf{{0.2f, 0.9f, 1.1f}, {3.9f, 2.5f, 2.1f}, {}, Roughness{false, 0.12f, 0.12f}});
     scene.shapes.push_back(make_quad({-1, -1, 1.2f}, {-1, -1, 3}, {1, -1, 3}, {1, -1, 1.2f}, mirror));
     scene.shapes.push_back(make_sphere({0, -.35f, .2f}, .6f, narrow));
-    expect_agreement(scene, {request("ptracer", 96), request("pppm", 64), request("sppm", 64), request("pppm", 64, "direct", "photons"), request("photonmapper", 64), request("bdpt", 96), request("vcm", 96), request("bpm", 64)}, edge_bias);
+    expect_agreement(scene, {request("ptracer", 96), request("pppm", 64), request("sppm", 64), request("pppm", 64, "direct", "photons"), request("photonmapper", 64), request("bdpt", 96), request("vcm", 96)}, edge_bias);
 }
 
 // The two lobes of plastic, and the parts of a mask and a blend, are chosen anew by each path.
@@ -218,7 +218,7 @@ Scene plastic_spheres(const PlasticBsdf& model)
 TEST(Agreement, RoughPlasticMaskAndBlend)
 {
     const Scene scene = plastic_spheres(PlasticBsdf{1.5f, 1.0f, {.2f, .3f, .7f}, {1, 1, 1}, false, Roughness{false, 0.3f, 0.3f}});
-    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("bdpt", 64), request("vcm", 64), request("bpm", 48)}, edge_bias);
+    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("sppm", 48), request("bdpt", 48), request("vcm", 48)}, edge_bias);
 }
 
 // Without ptracer, to which what a smooth coat mirrors is invisible.
@@ -345,7 +345,7 @@ Scene scene_under_a_map(std::shared_ptr<const TexelImage> image)
 TEST(Agreement, EnvironmentMap)
 {
     expect_agreement(scene_under_a_map(random_environment(16, 9, 30.0f)),
-                     {request("path", 128), request("ptracer", 64), request("pppm", 32), request("sppm", 32), request("pppm", 32, "direct", "photons"), request("bdpt", 64), request("vcm", 64), request("bpm", 32)}, edge_bias);
+                     {request("path", 128), request("ptracer", 64), request("pppm", 32), request("sppm", 32), request("pppm", 32, "direct", "photons"), request("bdpt", 48), request("vcm", 48)}, edge_bias);
 }
 
 TEST(Agreement, AWhiteMapIsAConstantEnvironment)
