@@ -6,7 +6,7 @@
 #include "shared/sampler.h"
 
 // Another one for a pixel in every iteration: light subpaths are numbered by a low-discrepancy sequence, of which every
-// count-th point lies at nearly the same place. Neighbours have neighbouring ones, so that memory is read in order.
+// count-th point has nearly the same first coordinate. Neighbours have neighbouring ones, so that memory is read in order.
 static inline uint own_light_path(SamplerKey key, uint path, uint light_paths)
 {
     const uint iteration = hash_combine(hash_combine(STREAM_LIGHT, key.iteration_low), key.iteration_high);

@@ -36,7 +36,10 @@ static inline float3 weighted_environment(const SurfaceView* scene, const PathSt
 {
     const EnvironmentValue value = environment_value(scene, normalize(unpack(ray.direction)));
     if (is_black(value.radiance) || path->depth == 1u) return value.radiance;
-    return value.radiance * hit_weight(weights, value.pdf_w, value.pdf_w * distant_ray_pdf_a(scene));
+    // Light subpaths choose lights by power alone.
+    const uint index = scene->globals->environment_light;
+    const float choice = scene->lights[index].probability / light_probability(scene, index, (float3)(0.0f), 0u);
+    return value.radiance * hit_weight(weights, value.pdf_w, value.pdf_w * choice * distant_ray_pdf_a(scene));
 }
 
 // Next-event estimation as in direct_light.h, weighted against the other ways to find the path [Georgiev 2012, eqs. 44 and 45].

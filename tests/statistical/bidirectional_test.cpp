@@ -56,23 +56,4 @@ TEST(Bidirectional, LightSubpathsNeedNotBeOneAPixel)
     }
 }
 
-// Each pixel connects to a light subpath of its own. Were that the same place of the low-discrepancy sequence in every
-// iteration, the pixel would see one light subpath for ever, and its error would not fall.
-TEST(Bidirectional, ErrorOfSobolPointsFalls)
-{
-    const Scene scene = glass_box();
-    const Image few = render(scene, {"bdpt", 8, {}}, 1), many = render(scene, {"bdpt", 128, {}}, 2),
-                reference = render(scene, {"bdpt", 1024, {}}, 3);
-    const auto error = [&](const Image& image) {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < image.pixels.size(); i++) {
-            const double b = reference.pixels[i], d = image.pixels[i] - b;
-            sum += d * d / (b * b + 0.01);
-        }
-        return sum;
-    };
-    // 16 times the points: independent ones would leave 1/16 of the variance, and with the reference's own 1/8 of what 128 leave.
-    EXPECT_LT(error(many), 0.15 * error(few));
-}
-
 } // namespace
