@@ -122,6 +122,8 @@ TEST(DeviceBuffer, IsSharedAndCountedOnce)
     EXPECT_EQ(device.allocated_bytes(), 0u);
     EXPECT_EQ(pairs.size(), 3u);
     EXPECT_EQ(pairs.read(1).low, -1) << "memory goes with its last user";
+    pairs = {};
+    EXPECT_EQ(device.allocated_bytes(), 0u);
 }
 
 TEST(DeviceBuffer, OutlivesAMovedOrClosedDevice)
