@@ -29,16 +29,21 @@ typedef struct Splat {
 } Splat;
 SHARED_SIZE(Splat, 16);
 
-// [Hachisuka and Jensen 2009] shared per-pixel statistics.
+// [Hachisuka and Jensen 2009] statistics of a pixel, or of a hit point.
 typedef struct ProgressivePixel {
     Vec3 tau;             // flux within the radius, scaled to it, times camera throughput
     float radius_squared; // m^2
     float count;          // N: photons accumulated, with the rounding error beside it
     float count_error;
-    Vec3 direct; // sum over iterations of what is not from photons
-    Vec3 direct_error;
 } ProgressivePixel;
-SHARED_SIZE(ProgressivePixel, 48);
+SHARED_SIZE(ProgressivePixel, 24);
+
+// Sum over iterations of the radiance that is not from photons (W/m^2/sr), compensated as above.
+typedef struct DirectSum {
+    Vec3 sum;
+    Vec3 error;
+} DirectSum;
+SHARED_SIZE(DirectSum, 24);
 
 SHARED_END
 #endif

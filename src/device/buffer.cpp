@@ -109,6 +109,18 @@ RawBuffer::~RawBuffer()
     device_->memory.release(allocated_);
 }
 
+RawBuffer RawBuffer::share(std::string label) const
+{
+    assert(memory_);
+    RawBuffer other;
+    check(clRetainMemObject(handle(memory_)), "clRetainMemObject", fmt::format("buffer '{}'", label), *device_);
+    other.device_ = device_;
+    other.memory_ = memory_;
+    other.bytes_ = bytes_;
+    other.label_ = std::move(label);
+    return other;
+}
+
 void RawBuffer::write(std::size_t offset, const void* source, std::size_t bytes)
 {
     assert(memory_ && offset + bytes <= bytes_);

@@ -24,6 +24,9 @@ public:
     RawBuffer& operator=(RawBuffer&&) noexcept;
     ~RawBuffer();
 
+    // The same memory under another label, for as long as either lives: counted once, while this one does.
+    RawBuffer share(std::string label) const;
+
     std::size_t bytes() const { return bytes_; }
     const std::string& label() const { return label_; }
     explicit operator bool() const { return memory_ != nullptr; }
@@ -80,7 +83,20 @@ public:
     }
     const RawBuffer& raw() const { return raw_; }
 
+    // The same memory as `count` elements of another type, for as long as either lives: what is written through one
+    // overwrites the other's.
+    template <class Other> Buffer<Other> share_as(std::size_t count, std::string label) const
+    {
+        assert(count * sizeof(Other) <= bytes());
+        Buffer<Other> other;
+        other.raw_ = raw_.share(std::move(label));
+        other.size_ = count;
+        return other;
+    }
+
 private:
+    template <class Other> friend class Buffer;
+
     RawBuffer raw_;
     std::size_t size_ = 0;
 };

@@ -12,7 +12,7 @@ LightPass::LightPass(RenderContext& context, const Parameters& parameters, bool 
 
 void LightPass::trace(PathPool& pool, SamplerKey key, float radius)
 {
-    stored_ = photons_.trace(scene_, pool, key);
+    stored_ = photons_.trace(scene_, pool, key, map.lend_room(light_paths_));
     map.build(photons_.photons(), stored_, radius);
     photons_stored_ += stored_;
 }

@@ -26,10 +26,13 @@ struct HitPoints {
 void refuse_other_parts(const Parameters& parameters)
 {
     if (parameters.text("radius_policy") != "local")
-        parameters.refuse("radius_policy", "ppm shrinks its hit points' radii by the photons that they find, radius_policy=local; for another choose sppm or "
-                                           "pppm (-m pppm)");
+        parameters.refuse(
+            "radius_policy",
+            "ppm shrinks its hit points' radii by the photons that they find, radius_policy=local; for another choose sppm or "
+            "pppm (-m pppm)");
     if (parameters.text("kernel") != "uniform")
-        parameters.refuse("kernel", "ppm rescales the flux that it has found, which takes kernel=uniform; for another choose pppm (-m pppm)");
+        parameters.refuse("kernel",
+                          "ppm rescales the flux that it has found, which takes kernel=uniform; for another choose pppm (-m pppm)");
 }
 
 class ProgressivePhotonMapping final : public Method
@@ -48,7 +51,7 @@ public:
             HitPoints& points = hit_points_.emplace_back(HitPoints{
                 CameraPaths(context.device, context.camera, context.filter, sampler_kind(parameters), context.scene.surface_options()),
                 QueryTracer(context.device, context.scene, pixels, query_rules(parameters), false, sampler_kind(parameters)),
-                ProgressiveStatistics(context.device, pixels, first_radius_, parameters.real("alpha"))});
+                ProgressiveStatistics(context.device, pixels, first_radius_, parameters.real("alpha"), DirectLight::constant)});
             const SamplerKey key = sampler_key(context.seed, i);
             points.camera.start(context.scene, pool_, key);
             points.camera.record_first_hits(context.scene, pool_, i, context.film.first_hits);
@@ -75,7 +78,8 @@ public:
     {
         clear_radiance(image);
         for (const HitPoints& points : hit_points_)
-            points.statistics.add_radiance(image, context_.film, light_.light_paths(), 1.0 / static_cast<double>(hit_points_.size()));
+            points.statistics.add_radiance(image, context_.film, points.camera.radiance, light_.light_paths(),
+                                           1.0 / static_cast<double>(hit_points_.size()));
     }
 
     MethodCounters counters() const override

@@ -16,7 +16,7 @@ class StochasticProgressivePhotonMapping final : public Method
 public:
     StochasticProgressivePhotonMapping(RenderContext& context, const Parameters& parameters)
         : context_(context), pass_(context, parameters), gather_(make_gather(context, "estimators/flux_sum.h")),
-          statistics_(context.device, pass_.pixels(), pass_.first_radius(), parameters.real("alpha"))
+          statistics_(context.device, pass_.pixels(), pass_.first_radius(), parameters.real("alpha"), DirectLight::varying)
     {
     }
 
@@ -36,7 +36,7 @@ public:
     void resolve(Image& image) const override
     {
         clear_radiance(image);
-        statistics_.add_radiance(image, context_.film, pass_.light_paths(), 1.0);
+        statistics_.add_radiance(image, context_.film, pass_.camera.radiance, pass_.light_paths(), 1.0);
     }
 
     MethodCounters counters() const override { return pass_.counters(); }

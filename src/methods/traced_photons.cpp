@@ -60,10 +60,11 @@ TracedPhotons trace_photons(RenderContext& context, PhotonTracerSettings setting
     settings.paths = (settings.paths + batches - 1) / batches;
     PathPool pool(context.device, context.scene, settings.paths);
     PhotonTracer tracer(context.device, context.scene, settings);
+    Buffer<Photon> deposits(context.device, settings.paths, "photon deposits");
     for (std::size_t batch = 0; batch < batches; batch++) {
         // Batches continue the points of one sequence; above 2^32 another begins (kernels/math/sampler.h).
         const SamplerKey key = sampler_key(context.seed, (static_cast<std::uint64_t>(map_number) << 32) + batch);
-        const std::size_t stored = tracer.trace(context.scene, pool, key);
+        const std::size_t stored = tracer.trace(context.scene, pool, key, deposits);
         const std::vector<Photon> photons =
             importance ? importance->thin(tracer.photons(), stored, key) : tracer.photons().records().download(0, stored);
         traced.photons.insert(traced.photons.end(), photons.begin(), photons.end());

@@ -1,9 +1,11 @@
 #include "stages/light_paths.h"
 
+#include <cassert>
+
 namespace sundog {
 
 PhotonTracer::PhotonTracer(Device& device, const DeviceScene& scene, const PhotonTracerSettings& settings)
-    : settings_(settings), deposits_(device, settings.paths, "photon deposits"), photons_(device, "photons", settings.paths)
+    : settings_(settings), photons_(device, "photons", settings.paths)
 {
     BuildOptions options = scene.surface_options();
     use_sampler(options, settings.sampler);
@@ -13,7 +15,7 @@ PhotonTracer::PhotonTracer(Device& device, const DeviceScene& scene, const Photo
     shade_photon_path_ = Kernel(device, "shade_photon_path", "Shade photon paths", options);
 }
 
-void PhotonTracer::trace_once(const DeviceScene& scene, PathPool& pool, SamplerKey key)
+void PhotonTracer::trace_once(const DeviceScene& scene, PathPool& pool, SamplerKey key, Buffer<Photon>& deposits)
 {
     const uint count = static_cast<uint>(settings_.paths);
     photons_.clear();
@@ -22,19 +24,20 @@ void PhotonTracer::trace_once(const DeviceScene& scene, PathPool& pool, SamplerK
     do {
         pool.trace(scene);
         shade_photon_path_(pool.items(), scene.surfaces(), key, settings_.rules, count, pool.hits, pool.active(), pool.active_count(), pool.rays, pool.paths,
-                           deposits_, pool.flags);
-        photons_.append(pool.compaction, deposits_, pool.flags, pool.active_count(), pool.items());
+                           deposits, pool.flags);
+        photons_.append(pool.compaction, deposits, pool.flags, pool.active_count(), pool.items());
     } while (pool.keep_alive());
 }
 
-std::size_t PhotonTracer::trace(const DeviceScene& scene, PathPool& pool, SamplerKey key)
+std::size_t PhotonTracer::trace(const DeviceScene& scene, PathPool& pool, SamplerKey key, Buffer<Photon>& deposits)
 {
-    trace_once(scene, pool, key);
+    assert(deposits.size() >= settings_.paths);
+    trace_once(scene, pool, key, deposits);
     std::size_t stored = photons_.read_count();
     if (stored > photons_.capacity()) {
         // Paths are a pure function of the key: the same photons come again, with room for all.
         photons_.grow(stored);
-        trace_once(scene, pool, key);
+        trace_once(scene, pool, key, deposits);
         stored = photons_.read_count();
     }
     return stored;

@@ -26,20 +26,20 @@ class PhotonTracer {
 public:
     PhotonTracer(Device& device, const DeviceScene& scene, const PhotonTracerSettings& settings);
 
-    // Traces one iteration's light paths to their ends. Returns the number of photons stored.
-    std::size_t trace(const DeviceScene& scene, PathPool& pool, SamplerKey key);
+    // Traces one iteration's light paths to their ends. Returns the number of photons stored. deposits: room for a photon
+    // of each path, free from now until then.
+    std::size_t trace(const DeviceScene& scene, PathPool& pool, SamplerKey key, Buffer<Photon>& deposits);
 
     const RecordList<Photon>& photons() const { return photons_; }
 
     void serialize(StateArchive& archive) { photons_.serialize(archive); }
 
 private:
-    void trace_once(const DeviceScene& scene, PathPool& pool, SamplerKey key);
+    void trace_once(const DeviceScene& scene, PathPool& pool, SamplerKey key, Buffer<Photon>& deposits);
 
     PhotonTracerSettings settings_;
     Kernel emit_light_paths_;
     Kernel shade_photon_path_;
-    Buffer<Photon> deposits_;
     RecordList<Photon> photons_;
 };
 

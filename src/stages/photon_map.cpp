@@ -11,6 +11,9 @@ namespace {
 constexpr std::size_t cells_per_photon = 1;
 constexpr std::size_t min_table_size = std::size_t(1) << 12;
 constexpr std::size_t max_table_size = std::size_t(1) << 22;
+// Photons that are moved whole, through a copy, at most. With more of them the places being written, one a cell, leave the
+// cache, and sorting indices is as fast.
+constexpr std::size_t most_moved_photons = std::size_t(1) << 21;
 
 // Streams start nine cache lines apart modulo a page: those of one photon would else compete for the same sets
 // of the cache when all are written at once.
@@ -60,11 +63,19 @@ void PhotonMap::reserve(std::size_t photons)
 {
     if (sort_ && sort_->capacity() >= photons) return;
     sort_.reset();
+    lent_ = {}; // all of them, before asking for more
     streams_ = {};
     sorted_ = {};
     table_size_ = static_cast<uint>(std::clamp(std::bit_ceil(photons * cells_per_photon), min_table_size, max_table_size));
     sort_ = std::make_unique<KeySort>(*device_, photons, table_size_);
     streams_ = Buffer<float>(*device_, PHOTON_STREAMS * stream_stride(photons), "photon streams");
+}
+
+Buffer<Photon>& PhotonMap::lend_room(std::size_t count)
+{
+    reserve(count);
+    if (lent_.size() < count) lent_ = streams_.share_as<Photon>(sort_->capacity(), "photon streams, lent");
+    return lent_;
 }
 
 void PhotonMap::build(const RecordList<Photon>& photons, std::size_t count, float largest_radius)
@@ -91,7 +102,7 @@ void PhotonMap::fill(const RecordList<Photon>& photons, std::size_t count)
 void PhotonMap::sort_and_lay_out(const RecordList<Photon>& photons, std::size_t count)
 {
     const std::size_t eights = (count + 7) / 8;
-    if (keeps_order_ || !sort_->takes_one_pass(grid_.cell_count)) {
+    if (keeps_order_ || photons.capacity() > most_moved_photons || !sort_->takes_one_pass(grid_.cell_count)) {
         sort_->sort(photons.count(), count, grid_.cell_count);
         reorder_photons_(eights, photons.records(), sort_->order(), photons.count(), grid_.stride, streams_);
         return;

@@ -23,6 +23,9 @@ public:
     // in a large scene.
     void build_dense(const RecordList<Photon>& photons, std::size_t count, float usual_radius);
 
+    // Room for `count` photons that is free until the next build(), at the price of what the map holds now.
+    Buffer<Photon>& lend_room(std::size_t count);
+
     const PhotonGrid& grid() const { return grid_; }
     const Buffer<uint>& cell_ends() const { return sort_->ends(); }
     uint cell_ends_offset() const { return sort_->ends_offset(); }
@@ -43,6 +46,7 @@ private:
     std::unique_ptr<KeySort> sort_;
     Buffer<Photon> sorted_; // only where photons are scattered whole
     Buffer<float> streams_;
+    Buffer<Photon> lent_; // the streams' memory
     uint table_size_ = 0;
     PhotonGrid grid_{};
 };

@@ -104,6 +104,28 @@ TEST(DeviceBuffer, MovesAndCountsItsBytes)
     EXPECT_EQ(device.allocated_bytes(), 0u);
 }
 
+TEST(DeviceBuffer, IsSharedAndCountedOnce)
+{
+    struct Pair {
+        int low, high;
+    };
+    Device device(select_device(""));
+    Buffer<Pair> pairs;
+    {
+        const Buffer<int> numbers(device, std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8}, "numbers");
+        pairs = numbers.share_as<Pair>(3, "pairs");
+        EXPECT_EQ(device.peak_bytes(), 64u);
+        EXPECT_EQ(pairs.read(2).high, 6);
+        pairs.upload(std::vector<Pair>{{-1, -2}}, 1);
+        EXPECT_EQ(numbers.download(), (std::vector<int>{1, 2, -1, -2, 5, 6, 7, 8}));
+    }
+    EXPECT_EQ(device.allocated_bytes(), 0u);
+    EXPECT_EQ(pairs.size(), 3u);
+    EXPECT_EQ(pairs.read(1).low, -1) << "memory goes with its last user";
+    pairs = {};
+    EXPECT_EQ(device.allocated_bytes(), 0u);
+}
+
 TEST(DeviceBuffer, OutlivesAMovedOrClosedDevice)
 {
     Buffer<int> buffer;

@@ -35,6 +35,56 @@ double pearson(const Counts& counts, std::size_t bins)
     return n > 0.0 ? statistic : 0.0;
 }
 
+// Probability that a non-central chi-squared variable exceeds `statistic`: the mixture of central ones of degrees + 2 j, j by
+// Poisson's law with the mean noncentrality / 2. Degrees: odd.
+double noncentral_chi_squared_tail(double statistic, int degrees, double noncentrality)
+{
+    double sum = 0.0;
+    for (int j = 0; j < 200; j++)
+        sum += std::exp(-0.5 * noncentrality + j * std::log(std::max(0.5 * noncentrality, 1e-300)) - std::lgamma(j + 1.0)) *
+               chi_squared_tail(statistic, degrees + 2 * j);
+    return sum;
+}
+
+// Of n photons with these probabilities of `bins` bins, against equal ones.
+double noncentrality(const std::vector<double>& probabilities, std::size_t bins, double n)
+{
+    const double all = std::accumulate(probabilities.begin(), probabilities.begin() + bins, 0.0);
+    double sum = 0.0;
+    for (std::size_t b = 0; b < bins; b++) sum += std::pow(probabilities[b] / all - 1.0 / static_cast<double>(bins), 2);
+    return n * all * static_cast<double>(bins) * sum;
+}
+
+// Probabilities of the bins of a unit disk that is `contrast` times as bright beyond the line at `distance` from its middle.
+std::vector<double> step_edge(double distance, double contrast)
+{
+    constexpr int lines = 800;
+    std::vector<double> bins(DISK_BINS);
+    for (int i = 0; i < lines * lines; i++) {
+        const double x = 2.0 * (i % lines + 0.5) / lines - 1.0, y = 2.0 * (i / lines + 0.5) / lines - 1.0;
+        if (x * x + y * y >= 1.0) continue;
+        const auto sector = static_cast<std::size_t>((std::atan2(y, x) / std::numbers::pi + 1.0) * 3.0) % RING_BINS;
+        bins[sector + (x * x + y * y < 0.5 ? 0 : RING_BINS)] += x > distance ? contrast : 1.0;
+    }
+    const double all = std::accumulate(bins.begin(), bins.end(), 0.0);
+    for (double& bin : bins) bin /= all;
+    return bins;
+}
+
+// A multinomial draw, bin by bin: as draw(), for many photons.
+Counts draw_many(std::mt19937& random, uint photons, const std::vector<double>& probabilities)
+{
+    Counts counts{};
+    double left = 1.0;
+    for (std::size_t b = 0; b < DISK_BINS; b++) {
+        counts[b] =
+            b + 1 == DISK_BINS ? photons : std::binomial_distribution<uint>(photons, std::min(1.0, probabilities[b] / left))(random);
+        photons -= counts[b];
+        left -= probabilities[b];
+    }
+    return counts;
+}
+
 class PhotonBins : public DeviceFixture
 {
 protected:
@@ -158,6 +208,46 @@ TEST_F(PhotonBins, EvenLightKeepsItsRadius)
     const double error = std::sqrt(0.05 * 0.95 / pixels);
     EXPECT_LT(shrunk / pixels, 0.05 * 7 / 8 + 3 * error);
     EXPECT_GT(shrunk / pixels, 0.02);
+}
+
+// The first test finds a step edge as often as Pearson's theory says, and where it is sure of one it keeps half the disk as
+// often as the inner ring's own test passes. In so many photons the theory, which is of their limit, is good to 0.003.
+TEST_F(PhotonBins, FindEdgesAsOftenAsTheNoncentralDistributionSays)
+{
+    constexpr std::size_t pixels = 6000;
+    constexpr uint photons = 20'000;
+    struct Edge {
+        double distance, contrast;
+    };
+    std::mt19937 random(9);
+    const TestThreshold limit = thresholds(0.05).front();
+    double weakest = 1.0, strongest = 0.0;
+    for (const Edge edge : {Edge{0.0, 1.04}, Edge{0.0, 1.06}, Edge{0.3, 1.07}, Edge{0.0, 1.09}, Edge{0.75, 1.13}, Edge{0.75, 1.45},
+                            Edge{0.6, 1.25}, Edge{0.5, 1.2}}) {
+        const std::vector<double> bins = step_edge(edge.distance, edge.contrast);
+        const auto device_pixels = upload(std::vector<TestedPixel>(pixels, start(1.0f, static_cast<float>(photons))));
+        std::vector<Counts> found(pixels);
+        for (Counts& counts : found) counts = draw_many(random, photons, bins);
+        update(device_pixels, found);
+        double failed = 0.0, halved = 0.0;
+        for (const TestedPixel& pixel : device_pixels.download()) {
+            failed += pixel.radius_squared < 1.0f ? 1.0 : 0.0;
+            halved += pixel.radius_squared == 0.5f ? 1.0 : 0.0;
+        }
+        const double power =
+            noncentral_chi_squared_tail(static_cast<double>(limit.disk), DISK_BINS - 1, noncentrality(bins, DISK_BINS, photons));
+        // Of eight edges, eleven numbers: one is beyond four standard errors by chance in 1400 runs.
+        const auto tolerance = [](double share) { return 4.0 * std::sqrt(share * (1.0 - share) / pixels) + 0.003; };
+        EXPECT_NEAR(failed / pixels, power, tolerance(power)) << edge.distance << ' ' << edge.contrast;
+        weakest = std::min(weakest, power);
+        strongest = std::max(strongest, power);
+        if (power < 0.9999) continue;
+        const double inner =
+            noncentral_chi_squared_tail(static_cast<double>(limit.inner_ring), RING_BINS - 1, noncentrality(bins, RING_BINS, photons));
+        EXPECT_NEAR(halved / pixels, 1.0 - inner, tolerance(inner)) << edge.distance << ' ' << edge.contrast;
+    }
+    EXPECT_LT(weakest, 0.3);
+    EXPECT_GT(strongest, 0.9999);
 }
 
 // At an edge every test fails, and r^2 ~ N^(-1/3): the schedule with alpha = 2/3.

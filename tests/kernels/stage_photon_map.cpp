@@ -245,6 +245,43 @@ TEST_F(PhotonMapStage, PhotonsAreLaidOutByCellInOrder)
 }
 
 // The same bits whatever the number of groups.
+// Maps of many photons are sorted by index, others by moving photons: into the same order, so to the same bits.
+TEST_F(PhotonMapStage, LargeMapsAreSortedAlike)
+{
+    const auto photons = crowd(unit_box, 20'000, 0.1f);
+    const auto queries = queries_near(photons, 400, 0.04f);
+    PhotonCloud small(device_, unit_box, photons.size()), large(device_, unit_box, (std::size_t(1) << 21) + 1);
+    small.build(photons, 0.04f);
+    large.build(photons, 0.04f);
+    const auto expected = small.gather(gather_, queries), found = large.gather(gather_, queries);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        EXPECT_EQ(found[i].count, expected[i].count) << i;
+        EXPECT_EQ(found[i].flux.x, expected[i].flux.x) << i;
+    }
+}
+
+// What is written into lent room is gone with the next map.
+TEST_F(PhotonMapStage, LendsItsRoomBetweenMaps)
+{
+    const auto photons = crowd(unit_box, 5'000, 0.1f);
+    const auto queries = queries_near(photons, 100, 0.04f);
+    PhotonCloud cloud(device_, unit_box, photons.size());
+    cloud.build(photons, 0.04f);
+    const auto expected = cloud.gather(gather_, queries);
+    const std::uint64_t bytes = device_.allocated_bytes();
+    Buffer<Photon>& room = cloud.map.lend_room(photons.size());
+    EXPECT_EQ(device_.allocated_bytes(), bytes);
+    ASSERT_GE(room.size(), photons.size());
+    room.upload(std::vector<Photon>(room.size(), make_test_photon({0.5f, 0.5f, 0.5f}, {1e6f, 1, 1})));
+    cloud.build(photons, 0.04f);
+    const auto found = cloud.gather(gather_, queries);
+    for (std::size_t i = 0; i < queries.size(); ++i) EXPECT_EQ(found[i].flux.x, expected[i].flux.x) << i;
+    // More than there was: the map makes room, and still answers.
+    EXPECT_GE(cloud.map.lend_room(3 * photons.size()).size(), 3 * photons.size());
+    cloud.build(photons, 0.04f);
+    expect_brute_force(cloud, photons, queries);
+}
+
 TEST_F(PhotonMapStage, GroupSizesDoNotMatter)
 {
     const auto photons = crowd(unit_box, 10'000, 0.05f);

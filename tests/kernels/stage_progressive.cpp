@@ -1,8 +1,8 @@
 // Statistics of progressive methods against their recurrences in double precision, and the small stages that add
 // gathered light, light samples and splats.
+#include "shared/counted_radius.h"
 #include "shared/film.h"
 #include "shared/path.h"
-#include "shared/counted_radius.h"
 #include "shared/photon.h"
 #include "support/device_fixture.h"
 #include "support/double3.h"
@@ -24,7 +24,7 @@ protected:
     std::mt19937 random_{3};
     float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
 
-    Kernel update_{device_, "update_progressive_pixels", "Update"};
+    Kernel update_{device_, "update_progressive_pixels", "Update", {{{"SUMS_DIRECT", "1"}}, {}}};
 };
 
 // [Hachisuka and Jensen 2009]: N' = N + alpha M, r'^2 = r^2 N' / (N + M), tau' = (tau + beta Phi) r'^2 / r^2.
@@ -43,6 +43,7 @@ TEST_F(ProgressiveStage, FollowsTheRecurrence)
         expected[i].radius_squared = start[i].radius_squared;
     }
     const auto device_pixels = upload(start);
+    const auto direct_sums = upload(std::vector<DirectSum>(pixels));
     auto queries = allocate<GatherQuery>(pixels);
     auto sums = allocate<GatherSum>(pixels);
     auto radiance = allocate<Vec3>(pixels);
@@ -72,17 +73,18 @@ TEST_F(ProgressiveStage, FollowsTheRecurrence)
         queries.upload(host_queries);
         sums.upload(host_sums);
         radiance.upload(host_radiance);
-        update_(pixels, queries, sums, radiance, static_cast<uint>(pixels), alpha, inverse_paths, device_pixels, radiance);
+        update_(pixels, queries, sums, radiance, static_cast<uint>(pixels), alpha, inverse_paths, device_pixels, direct_sums, radiance);
         if (iteration % 100 != 0) continue;
         const auto got = radiance.download();
         for (std::size_t i = 0; i < pixels; ++i)
             ASSERT_NEAR(got[i].x, result[i].x, 1e-4 * result[i].x) << "radiance of pixel " << i << ", iteration " << iteration;
     }
     const auto got = device_pixels.download();
+    const auto direct = direct_sums.download();
     for (std::size_t i = 0; i < pixels; ++i) {
         const Expected& e = expected[i];
         EXPECT_NEAR((static_cast<double>(got[i].count) + got[i].count_error) / e.count, 1.0, 1e-6) << i;
-        EXPECT_NEAR((static_cast<double>(got[i].direct.x) + got[i].direct_error.x) / e.direct, 1.0, 1e-7) << i;
+        EXPECT_NEAR((static_cast<double>(direct[i].sum.x) + direct[i].error.x) / e.direct, 1.0, 1e-7) << i;
         // A product of 600 rounded factors.
         EXPECT_NEAR(got[i].radius_squared / e.radius_squared, 1.0, 2e-5) << i;
         EXPECT_NEAR(got[i].tau.x / e.tau, 1.0, 2e-5) << i;
@@ -100,10 +102,11 @@ TEST_F(ProgressiveStage, SteadyArrivalsShrinkTheRadiusInClosedForm)
     const auto queries = upload(std::vector{query});
     const auto sums = upload(std::vector<GatherSum>{{{1, 1, 1}, 5.0f}});
     const auto radiance = upload(std::vector<Vec3>(1));
+    const auto direct_sums = upload(std::vector<DirectSum>(1));
     const float alpha = 2.0f / 3.0f;
     double expected = 1.0;
     for (int i = 0; i < 100; ++i) {
-        update_(1, queries, sums, radiance, 1u, alpha, 1.0f, pixels, radiance);
+        update_(1, queries, sums, radiance, 1u, alpha, 1.0f, pixels, direct_sums, radiance);
         expected *= static_cast<double>(alpha) * (i + 1) / (static_cast<double>(alpha) * i + 1.0);
     }
     EXPECT_NEAR(pixels.read(0).radius_squared / expected, 1.0, 1e-5);
@@ -124,16 +127,18 @@ TEST_F(ProgressiveStage, WhatIsNotFiniteStaysOutOfTheStatisticsButIsSeen)
     const auto queries = upload(std::vector{query, huge, query});
     const auto sums = upload(std::vector<GatherSum>{{{NAN, 1, 1}, 2.0f}, {{1e30f, 1, 1}, 2.0f}, {{1, 1, 1}, 2.0f}});
     const auto radiance = upload(std::vector<Vec3>{{1, 1, 1}, {1, 1, 1}, {INFINITY, 1, 1}});
-    update_(3, queries, sums, radiance, 3u, 0.5f, 1.0f, pixels, radiance);
+    const auto direct_sums = upload(std::vector<DirectSum>(3));
+    update_(3, queries, sums, radiance, 3u, 0.5f, 1.0f, pixels, direct_sums, radiance);
     const auto got = pixels.download();
+    const auto direct = direct_sums.download();
     const auto seen = radiance.download();
     for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_TRUE(std::isfinite(got[i].tau.x) && std::isfinite(got[i].direct.x) && std::isfinite(got[i].radius_squared)) << i;
+        EXPECT_TRUE(std::isfinite(got[i].tau.x) && std::isfinite(direct[i].sum.x) && std::isfinite(got[i].radius_squared)) << i;
         EXPECT_FALSE(std::isfinite(seen[i].x)) << "the film could not count it";
     }
     EXPECT_EQ(got[0].count, 10.0f);
     EXPECT_EQ(got[1].radius_squared, 0.25f);
-    EXPECT_EQ(got[2].direct.x, 0.0f);
+    EXPECT_EQ(direct[2].sum.x, 0.0f);
     EXPECT_EQ(got[2].count, 11.0f);
 }
 
@@ -146,10 +151,10 @@ TEST_F(ProgressiveStage, QueriesTakeTheirPixelsRadius)
         queries[i].radius = i % 5 == 0 ? 0.0f : 7.0f;
     }
     const auto device_queries = upload(queries);
-    Kernel(device_, "set_query_radii", "Set radii", BuildOptions{{{"PIXEL_STATISTICS", "ProgressivePixel"}}, {}})(100, upload(pixels), 100u, device_queries);
+    Kernel(device_, "set_query_radii", "Set radii", BuildOptions{{{"PIXEL_STATISTICS", "ProgressivePixel"}}, {}})(100, upload(pixels), 100u,
+                                                                                                                  device_queries);
     const auto got = device_queries.download();
-    for (uint i = 0; i < 100; ++i)
-        EXPECT_FLOAT_EQ(got[i].radius, i % 5 == 0 ? 0.0f : std::sqrt(pixels[i].radius_squared)) << i;
+    for (uint i = 0; i < 100; ++i) EXPECT_FLOAT_EQ(got[i].radius, i % 5 == 0 ? 0.0f : std::sqrt(pixels[i].radius_squared)) << i;
 }
 
 TEST_F(ProgressiveStage, GatheredLightIsAddedWhereThereIsAQuery)
@@ -227,8 +232,8 @@ TEST_F(ProgressiveStage, ManyEqualSplatsLoseNothing)
     std::vector<uint> order(count);
     std::iota(order.begin(), order.end(), 0u);
     const auto radiance = upload(std::vector<Vec3>(1, {0, 0, 0}));
-    Kernel(device_, "add_splats", "Add")(1, upload(std::vector<Splat>(count, {{0.1f, 1, 0}, 0u})), upload(order), upload(std::vector<uint>{count}), 0u, 1u,
-                                         1.0f / count, radiance);
+    Kernel(device_, "add_splats", "Add")(1, upload(std::vector<Splat>(count, {{0.1f, 1, 0}, 0u})), upload(order),
+                                         upload(std::vector<uint>{count}), 0u, 1u, 1.0f / count, radiance);
     EXPECT_FLOAT_EQ(radiance.read(0).x, 0.1f);
 }
 

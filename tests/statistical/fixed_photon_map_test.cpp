@@ -72,9 +72,10 @@ protected:
     {
         PathPool pool(device_, scene_, light_paths);
         PhotonTracer tracer(device_, scene_, {light_paths, {2, 1}, false, SamplerKind::independent, PhotonsKept::caustic});
+        Buffer<Photon> deposits(device_, light_paths, "deposits");
         std::vector<std::vector<Photon>> photons;
         for (std::uint64_t map = 0; map < maps; ++map) {
-            const std::size_t stored = tracer.trace(scene_, pool, sampler_key(5, map));
+            const std::size_t stored = tracer.trace(scene_, pool, sampler_key(5, map), deposits);
             photons.push_back(tracer.photons().records().download(0, stored));
         }
         return photons;

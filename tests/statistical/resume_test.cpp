@@ -16,7 +16,8 @@ using namespace sundog;
 using namespace sundog::test;
 using testing::HasSubstr;
 
-namespace {
+namespace
+{
 
 constexpr std::uint64_t total_iterations = 5;
 
@@ -51,7 +52,8 @@ struct Result {
     RenderStatistics statistics;
 };
 
-class Resume : public testing::Test {
+class Resume : public testing::Test
+{
 protected:
     Resume()
     {
@@ -96,11 +98,17 @@ protected:
     std::filesystem::path folder_, checkpoint_;
 };
 
-class ResumeMethods : public Resume, public testing::WithParamInterface<std::string> {};
+class ResumeMethods : public Resume, public testing::WithParamInterface<std::string>
+{
+};
 
-class ResumePhotonMaps : public ResumeMethods {};
+class ResumePhotonMaps : public ResumeMethods
+{
+};
 
-class ResumeErrors : public ResumeMethods {};
+class ResumeErrors : public ResumeMethods
+{
+};
 
 std::vector<std::string> method_names()
 {
@@ -185,11 +193,11 @@ TEST_P(ResumeErrors, ResumedIsUninterruptedWithErrors)
 // Asking for errors is no other render.
 TEST_P(ResumeErrors, ErrorsLeaveTheImageAlone)
 {
-    const Result plain = render_in_parts(settings_for(GetParam()), {3}), asked = render_in_parts(with_errors(settings_for(GetParam())), {3});
+    const Result plain = render_in_parts(settings_for(GetParam()), {3}),
+                 asked = render_in_parts(with_errors(settings_for(GetParam())), {3});
     const std::size_t pixels = 27 * 27, channels = plain.pixels.size() / pixels, more = asked.pixels.size() / pixels;
     for (std::size_t i = 0; i < pixels; i++)
-        for (std::size_t c = 0; c < channels; c++)
-            ASSERT_EQ(asked.pixels[i * more + c], plain.pixels[i * channels + c]) << i << " " << c;
+        for (std::size_t c = 0; c < channels; c++) ASSERT_EQ(asked.pixels[i * more + c], plain.pixels[i * channels + c]) << i << " " << c;
     EXPECT_EQ(asked.statistics.counters.photons_stored, plain.statistics.counters.photons_stored);
 }
 
@@ -218,11 +226,13 @@ TEST_F(Resume, SecondsAddUp)
 TEST_F(Resume, AnotherRenderIsRefusedByName)
 {
     save_one(settings_for("pppm"));
-    EXPECT_THAT(refusal(glass_box(), settings_for("sppm")), HasSubstr("render.checkpoint: cannot resume, the checkpoint is of method pppm, not sppm; use -m pppm"));
+    EXPECT_THAT(refusal(glass_box(), settings_for("sppm")),
+                HasSubstr("render.checkpoint: cannot resume, the checkpoint is of method pppm, not sppm; use -m pppm"));
     EXPECT_THAT(refusal(glass_box(), settings_for("pppm", {{"alpha", "0.5"}})), HasSubstr("not alpha=0.5; use -p alpha="));
     EXPECT_THAT(refusal(glass_box(), settings_for("pppm", {}, 8)), HasSubstr("is of seed 7, not 8; use -s 7"));
-    EXPECT_THAT(refusal(glass_box(), with_errors(settings_for("pppm"))),
-                HasSubstr("is of a render that does not estimate its error; leave out --errors, --error-image and --target-error, or choose"));
+    EXPECT_THAT(
+        refusal(glass_box(), with_errors(settings_for("pppm"))),
+        HasSubstr("is of a render that does not estimate its error; leave out --errors, --error-image and --target-error, or choose"));
     EXPECT_THAT(refusal(glass_box(28), settings_for("pppm")), HasSubstr("is of 27x27 pixels, not 28x28"));
 }
 
@@ -263,7 +273,7 @@ TEST_F(Resume, DamageAnywhereIsFound)
         std::ifstream file(checkpoint_, std::ios::binary);
         whole.assign(std::istreambuf_iterator<char>(file), {});
     }
-    ASSERT_GT(whole.size(), 27u * 27u * (sizeof(FilmPixel) + sizeof(FirstHitPixel) + sizeof(ProgressivePixel)));
+    ASSERT_GT(whole.size(), 27u * 27u * (sizeof(FilmPixel) + sizeof(FirstHitPixel) + sizeof(ProgressivePixel) + sizeof(DirectSum)));
     RenderSession session(glass_box(), shared_device(), settings_for("sppm"));
     const auto refused = [&](const std::string& bytes) {
         std::ofstream(checkpoint_, std::ios::binary) << bytes;
