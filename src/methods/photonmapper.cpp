@@ -2,6 +2,9 @@
 // sees first is lit straight from the lights by next-event estimation, by focused light from the caustic map, and by all
 // other light from the global map: looked up where a ray that gathers it arrives [section 4.2], or at once. Iterations
 // average camera paths; the maps' blur and noise stay.
+//
+// In spectral transport the maps are traced again in each iteration, by the same random numbers at that iteration's
+// wavelengths: the same photons, in other colours, and elsewhere only where glass bends each colour another way.
 #include "base/errors.h"
 #include "base/hash.h"
 #include "methods/importons.h"
@@ -28,30 +31,24 @@ class PhotonMapping final : public Method
 {
 public:
     PhotonMapping(RenderContext& context, const Parameters& parameters)
-        : context_(context),
+        : context_(context), parameters_(parameters),
           camera_(context.device, context.camera, context.filter, sampler_kind(parameters), context.scene.surface_options()),
           are_loaded_(!parameters.text("load_map").empty()), pool_(context.device, context.scene, camera_.count()),
           visible_(context.device, context.scene, camera_.count(), query_rules(parameters), parameters.text("direct") == "nee",
                    sampler_kind(parameters))
     {
         check(parameters);
-        MapPhotons photons = make_map_photons(context, parameters);
-        const int sweeps = static_cast<int>(parameters.integer("relaxation"));
-        const PhotonLookup lookup = global_lookup(context, parameters, photons.global.light_paths);
-        if (sweeps > 0) PhotonRelaxation(context.device, lookup.radius, any_direction).relax(photons.global.photons, sweeps);
         if (parameters.boolean("final_gather"))
             final_gather_.emplace(context.device, context.scene, camera_.count(), query_rules(parameters), sampler_kind(parameters));
-        add_map(global_, photons.global, lookup);
-        if (photons.caustic) {
-            const PhotonLookup focused = caustic_lookup(context, parameters, photons.caustic->light_paths);
-            if (sweeps > 0) PhotonRelaxation(context.device, focused.radius, one_wavefront).relax(photons.caustic->photons, sweeps);
-            add_map(caustic_, *photons.caustic, focused);
-        }
-        if (parameters.boolean("precompute")) irradiance_.emplace(context.device, context.scene, photons.global.photons, *global_);
+        if (context.spectral.is_on())
+            tracer_.emplace(context, parameters);
+        else
+            make_maps(make_map_photons(context, parameters));
     }
 
     void render_pass(std::uint64_t iteration) override
     {
+        if (tracer_) make_maps(tracer_->trace());
         const SamplerKey key = sampler_key(context_.seed, iteration);
         const float radius = global_->lookup().radius;
         camera_.start(context_.scene, pool_, key);
@@ -65,6 +62,7 @@ public:
             global_->add_radiance(visible_.queries, visible_.lobes, camera_.radiance);
         }
         if (caustic_) caustic_->add_radiance(visible_.queries, visible_.lobes, camera_.radiance);
+        context_.spectral.to_rgb(camera_.radiance);
         context_.film.accumulate(camera_.radiance);
     }
 
@@ -80,6 +78,9 @@ public:
         archive.value("photon maps", maps);
         if (maps != digest_.low())
             throw FileError("cannot resume, the photon maps are not those that the render began with; load those (-p load_map=FILE)");
+        archive.value("map light paths", light_paths_);
+        archive.value("map photons", photons_stored_);
+        archive.value("map rays", rays_);
         pool_.serialize(archive);
     }
 
@@ -89,6 +90,10 @@ private:
         if (!parameters.text("save_map").empty() && !parameters.text("load_map").empty())
             parameters.refuse("save_map",
                               "photonmapper cannot take both save_map and load_map: maps that are loaded are in a file already");
+        for (const char* file : {"save_map", "load_map"})
+            if (is_spectral(parameters) && !parameters.text(file).empty())
+                parameters.refuse(file, "photonmapper cannot take both spectral=true and " + std::string(file) +
+                                            ": each iteration has photon maps of its own, at other wavelengths");
         if (parameters.integer("importons") > 0 && !parameters.text("load_map").empty())
             parameters.refuse("importons",
                               "photonmapper cannot take both importons and load_map: importons choose among photons that are traced");
@@ -100,9 +105,24 @@ private:
                                                 parameters.text("max_depth") + "; use -p max_depth=-1");
     }
 
+    void make_maps(MapPhotons photons)
+    {
+        const int sweeps = static_cast<int>(parameters_.integer("relaxation"));
+        const PhotonLookup lookup = global_lookup(context_, parameters_, photons.global.light_paths);
+        if (sweeps > 0) PhotonRelaxation(context_.device, lookup.radius, any_direction).relax(photons.global.photons, sweeps);
+        add_map(global_, photons.global, lookup);
+        if (photons.caustic) {
+            const PhotonLookup focused = caustic_lookup(context_, parameters_, photons.caustic->light_paths);
+            if (sweeps > 0) PhotonRelaxation(context_.device, focused.radius, one_wavefront).relax(photons.caustic->photons, sweeps);
+            add_map(caustic_, *photons.caustic, focused);
+        }
+        if (parameters_.boolean("precompute")) irradiance_.emplace(context_.device, context_.scene, photons.global.photons, *global_);
+    }
+
     void add_map(std::optional<FixedPhotonMap>& map, const TracedPhotons& traced, const PhotonLookup& lookup)
     {
-        map.emplace(context_.device, context_.scene, camera_.count(), lookup, traced.photons, traced.light_paths);
+        // A map of the pass before goes when this one is there: both have the same programs.
+        map = FixedPhotonMap(context_.device, context_.scene, camera_.count(), lookup, traced.photons, traced.light_paths);
         light_paths_ += traced.light_paths;
         photons_stored_ += traced.photons.size();
         rays_ += traced.rays;
@@ -111,14 +131,16 @@ private:
     }
 
     RenderContext& context_;
+    Parameters parameters_;
     CameraPaths camera_;
     bool are_loaded_; // the maps
     PathPool pool_;
     QueryTracer visible_;
     std::optional<FinalGather> final_gather_;
+    std::optional<MapPhotonTracer> tracer_; // of each iteration's maps, in spectral transport
     std::optional<FixedPhotonMap> global_, caustic_;
     std::optional<PrecomputedIrradiance> irradiance_;
-    std::uint64_t light_paths_ = 0, photons_stored_ = 0, rays_ = 0; // of the maps
+    std::uint64_t light_paths_ = 0, photons_stored_ = 0, rays_ = 0; // of the maps; of all iterations' in spectral transport
     Hash digest_;                                                   // of loaded photons: the file may change
 };
 
@@ -133,7 +155,7 @@ const MethodRegistration registration({
     .parameters = {global_photons_spec(), global_radius_spec(), caustic_photons_spec(), caustic_radius_spec(), lookup_spec(),
                    nearest_spec(), filter_kernel_spec(), relaxation_spec(), final_gather_spec(), precompute_spec(), importons_spec(), save_map_spec(),
                    load_map_spec(), direct_spec(), light_choice_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"),
-                   sampler_spec(), iterations_spec()},
+                   sampler_spec(), spectral_spec(), iterations_spec()},
     .follows_motion = false,
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<PhotonMapping>(context, parameters);
