@@ -5,6 +5,8 @@
 //
 // In spectral transport the maps are traced again in each iteration, by the same random numbers at that iteration's
 // wavelengths: the same photons, in other colours, and elsewhere only where glass bends each colour another way.
+//
+// With progressive relaxation each iteration traces new photons, whose flux those of the first take up.
 #include "base/errors.h"
 #include "base/hash.h"
 #include "methods/importons.h"
@@ -15,6 +17,7 @@
 #include "stages/final_gather.h"
 #include "stages/photon_relaxation.h"
 #include "stages/precomputed_irradiance.h"
+#include "stages/progressive_relaxation.h"
 
 #include <optional>
 
@@ -40,15 +43,17 @@ public:
         check(parameters);
         if (parameters.boolean("final_gather"))
             final_gather_.emplace(context.device, context.scene, camera_.count(), query_rules(parameters), sampler_kind(parameters));
-        if (context.spectral.is_on())
+        if (context.spectral.is_on() || parameters.boolean("relaxation_progressive"))
             tracer_.emplace(context, parameters);
         else
             make_maps(make_map_photons(context, parameters));
+        if (parameters.boolean("relaxation_progressive")) begin_progressive_relaxation();
     }
 
     void render_pass(std::uint64_t iteration) override
     {
-        if (tracer_) make_maps(tracer_->trace());
+        // At other wavelengths the same photons; else others.
+        if (tracer_) make_maps(tracer_->trace(context_.spectral.is_on() ? 0 : iteration));
         const SamplerKey key = sampler_key(context_.seed, iteration);
         const float radius = global_->lookup().radius;
         camera_.start(context_.scene, pool_, key);
@@ -78,6 +83,8 @@ public:
         archive.value("photon maps", maps);
         if (maps != digest_.low())
             throw FileError("cannot resume, the photon maps are not those that the render began with; load those (-p load_map=FILE)");
+        for (auto* relaxed : {&relaxed_global_, &relaxed_caustic_})
+            if (*relaxed) (*relaxed)->serialize(archive);
         archive.value("map light paths", light_paths_);
         archive.value("map photons", photons_stored_);
         archive.value("map rays", rays_);
@@ -97,6 +104,7 @@ private:
         if (parameters.integer("importons") > 0 && !parameters.text("load_map").empty())
             parameters.refuse("importons",
                               "photonmapper cannot take both importons and load_map: importons choose among photons that are traced");
+        check_progressive(parameters);
         if (!parameters.boolean("precompute")) return;
         if (!parameters.boolean("final_gather"))
             parameters.refuse("precompute", "photonmapper's precompute=true is for gather rays: it cannot go with final_gather=false");
@@ -105,15 +113,48 @@ private:
                                                 parameters.text("max_depth") + "; use -p max_depth=-1");
     }
 
-    void make_maps(MapPhotons photons)
+    static void check_progressive(const Parameters& parameters)
+    {
+        const std::string name = "relaxation_progressive";
+        if (!parameters.boolean(name)) return;
+        if (is_spectral(parameters))
+            parameters.refuse(name, "photonmapper cannot take both " + name + "=true and spectral=true: flux of other wavelengths does not add up");
+        for (const char* file : {"save_map", "load_map"})
+            if (!parameters.text(file).empty())
+                parameters.refuse(name, "photonmapper cannot take both " + name + "=true and " + file + ": each iteration changes the maps");
+        if (path_rules(parameters).max_depth != UNBOUNDED_DEPTH)
+            parameters.refuse(name, "photonmapper's " + name + "=true sums light of all depths: it cannot go with max_depth=" +
+                                        parameters.text("max_depth") + "; use -p max_depth=-1");
+    }
+
+    void begin_progressive_relaxation()
+    {
+        const float radius = global_lookup(context_, parameters_, tracer_->global().light_paths()).radius;
+        relaxed_global_.emplace(context_.device, radius, any_direction);
+        if (!tracer_->caustic()) return;
+        const float focused = caustic_lookup(context_, parameters_, tracer_->caustic()->light_paths()).radius;
+        relaxed_caustic_.emplace(context_.device, focused, one_wavefront);
+    }
+
+    // Moves photons to where the map is to have them; with progressive relaxation they become those of all iterations.
+    void relax(std::vector<Photon>& photons, float radius, float least_cosine, std::optional<ProgressiveRelaxation>& progressive)
     {
         const int sweeps = static_cast<int>(parameters_.integer("relaxation"));
+        const bool are_first = !progressive || progressive->passes() == 0;
+        if (sweeps > 0 && are_first) PhotonRelaxation(context_.device, radius, least_cosine).relax(photons, sweeps);
+        if (!progressive) return;
+        progressive->add_pass(photons);
+        photons = progressive->photons();
+    }
+
+    void make_maps(MapPhotons photons)
+    {
         const PhotonLookup lookup = global_lookup(context_, parameters_, photons.global.light_paths);
-        if (sweeps > 0) PhotonRelaxation(context_.device, lookup.radius, any_direction).relax(photons.global.photons, sweeps);
+        relax(photons.global.photons, lookup.radius, any_direction, relaxed_global_);
         add_map(global_, photons.global, lookup);
         if (photons.caustic) {
             const PhotonLookup focused = caustic_lookup(context_, parameters_, photons.caustic->light_paths);
-            if (sweeps > 0) PhotonRelaxation(context_.device, focused.radius, one_wavefront).relax(photons.caustic->photons, sweeps);
+            relax(photons.caustic->photons, focused.radius, one_wavefront, relaxed_caustic_);
             add_map(caustic_, *photons.caustic, focused);
         }
         if (parameters_.boolean("precompute")) irradiance_.emplace(context_.device, context_.scene, photons.global.photons, *global_);
@@ -137,10 +178,11 @@ private:
     PathPool pool_;
     QueryTracer visible_;
     std::optional<FinalGather> final_gather_;
-    std::optional<MapPhotonTracer> tracer_; // of each iteration's maps, in spectral transport
+    std::optional<MapPhotonTracer> tracer_; // of each iteration's photons, where it has others than the one before
     std::optional<FixedPhotonMap> global_, caustic_;
+    std::optional<ProgressiveRelaxation> relaxed_global_, relaxed_caustic_;
     std::optional<PrecomputedIrradiance> irradiance_;
-    std::uint64_t light_paths_ = 0, photons_stored_ = 0, rays_ = 0; // of the maps; of all iterations' in spectral transport
+    std::uint64_t light_paths_ = 0, photons_stored_ = 0, rays_ = 0; // of the maps; of those of all iterations
     Hash digest_;                                                   // of loaded photons: the file may change
 };
 
@@ -153,7 +195,7 @@ const MethodRegistration registration({
         "Traces a global and a caustic photon map once, and looks light up in them, diffuse light by final gathering. Soft light without "
         "noise after few iterations; the maps' blur stays however long it renders.",
     .parameters = {global_photons_spec(), global_radius_spec(), caustic_photons_spec(), caustic_radius_spec(), lookup_spec(),
-                   nearest_spec(), filter_kernel_spec(), relaxation_spec(), final_gather_spec(), precompute_spec(), importons_spec(), save_map_spec(),
+                   nearest_spec(), filter_kernel_spec(), relaxation_spec(), progressive_relaxation_spec(), final_gather_spec(), precompute_spec(), importons_spec(), save_map_spec(),
                    load_map_spec(), direct_spec(), light_choice_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"),
                    sampler_spec(), spectral_spec(), iterations_spec()},
     .follows_motion = false,

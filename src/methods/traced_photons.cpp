@@ -67,19 +67,19 @@ MapTracer::MapTracer(RenderContext& context, const PhotonTracerSettings& setting
 {
 }
 
-TracedPhotons MapTracer::trace(PathPool& pool, ImportanceMap* importance)
+TracedPhotons MapTracer::trace(PathPool& pool, std::uint64_t set, ImportanceMap* importance)
 {
     TracedPhotons traced;
     const std::uint64_t rays_before = pool.rays_traced();
     for (std::size_t batch = 0; batch < batches_; batch++) {
-        // Batches continue the points of one sequence; above 2^32 another begins (kernels/math/sampler.h).
-        const SamplerKey key = sampler_key(context_.seed, (static_cast<std::uint64_t>(map_number_) << 32) + batch);
+        // Batches and sets continue the points of one sequence; above 2^32 another begins (kernels/math/sampler.h).
+        const SamplerKey key = sampler_key(context_.seed, (static_cast<std::uint64_t>(map_number_) << 32) + set * batches_ + batch);
         const std::size_t stored = tracer_.trace(context_.scene, pool, key);
         const std::vector<Photon> photons =
             importance ? importance->thin(tracer_.photons(), stored, key) : tracer_.photons().records().download(0, stored);
         traced.photons.insert(traced.photons.end(), photons.begin(), photons.end());
     }
-    traced.light_paths = batches_ * settings_.paths;
+    traced.light_paths = light_paths();
     traced.rays = pool.rays_traced() - rays_before;
     return traced;
 }
@@ -92,13 +92,13 @@ MapPhotonTracer::MapPhotonTracer(RenderContext& context, const Parameters& param
     pool_.emplace(context.device, context.scene, std::max(global_.batch_size(), caustic_ ? caustic_->batch_size() : 0));
 }
 
-MapPhotons MapPhotonTracer::trace()
+MapPhotons MapPhotonTracer::trace(std::uint64_t set)
 {
     std::uint64_t importon_rays = 0;
     const std::unique_ptr<ImportanceMap> importance = trace_importons(context_, parameters_, importon_rays);
-    MapPhotons maps{global_.trace(*pool_, importance.get()), {}};
+    MapPhotons maps{global_.trace(*pool_, set, importance.get()), {}};
     maps.global.rays += importon_rays;
-    if (caustic_) maps.caustic = caustic_->trace(*pool_, importance.get());
+    if (caustic_) maps.caustic = caustic_->trace(*pool_, set, importance.get());
     return maps;
 }
 
@@ -107,7 +107,7 @@ MapPhotons make_map_photons(RenderContext& context, const Parameters& parameters
     const std::string &from = parameters.text("load_map"), &to = parameters.text("save_map");
     if (!to.empty()) check_file_writable(to); // before the work
     const PhotonMapOrigin origin = from.empty() && to.empty() ? PhotonMapOrigin{} : origin_of(context, parameters);
-    const MapPhotons photons = from.empty() ? MapPhotonTracer(context, parameters).trace() : load_photon_maps(from, origin);
+    const MapPhotons photons = from.empty() ? MapPhotonTracer(context, parameters).trace(0) : load_photon_maps(from, origin);
     if (!to.empty()) save_photon_maps(to, origin, photons);
     return photons;
 }

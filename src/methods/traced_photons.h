@@ -18,17 +18,19 @@ struct TracedPhotons {
     std::uint64_t rays = 0;
 };
 
-// Traces the photons of one map, as often as is wanted: always by the same random numbers. Light paths go in batches of equal
-// size, so that memory does not grow with their number. Maps of one render that are to be independent of each other have
+// Traces the photons of one map, as often as is wanted. Light paths go in batches of equal size, so that memory does not grow with
+// their number. Maps of one render that are to be independent of each other have
 // different numbers.
 class MapTracer
 {
 public:
     MapTracer(RenderContext& context, const PhotonTracerSettings& settings, uint map_number);
 
-    // With `importance` only the photons that survive by it. The pool holds batch_size() paths.
-    TracedPhotons trace(PathPool& pool, ImportanceMap* importance = nullptr);
+    // A pure function of the seed, the map's number and `set`: sets of photons independent of each other. With `importance` only
+    // those that survive by it. The pool holds batch_size() paths.
+    TracedPhotons trace(PathPool& pool, std::uint64_t set, ImportanceMap* importance = nullptr);
     std::size_t batch_size() const { return settings_.paths; }
+    std::uint64_t light_paths() const { return batches_ * settings_.paths; } // of a set
 
 private:
     RenderContext& context_;
@@ -49,7 +51,10 @@ class MapPhotonTracer
 {
 public:
     MapPhotonTracer(RenderContext& context, const Parameters& parameters);
-    MapPhotons trace();
+    MapPhotons trace(std::uint64_t set);
+
+    const MapTracer& global() const { return global_; }
+    const std::optional<MapTracer>& caustic() const { return caustic_; }
 
 private:
     RenderContext& context_;
