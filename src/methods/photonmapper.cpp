@@ -83,6 +83,7 @@ public:
         archive.value("photon maps", maps);
         if (maps != digest_.low())
             throw FileError("cannot resume, the photon maps are not those that the render began with; load those (-p load_map=FILE)");
+        if (tracer_) tracer_->serialize(archive);
         for (auto* relaxed : {&relaxed_global_, &relaxed_caustic_})
             if (*relaxed) (*relaxed)->serialize(archive);
         archive.value("map light paths", light_paths_);

@@ -102,6 +102,12 @@ MapPhotons MapPhotonTracer::trace(std::uint64_t set)
     return maps;
 }
 
+void MapPhotonTracer::serialize(StateArchive& archive)
+{
+    global_.serialize(archive);
+    if (caustic_) caustic_->serialize(archive);
+}
+
 MapPhotons make_map_photons(RenderContext& context, const Parameters& parameters)
 {
     const std::string &from = parameters.text("load_map"), &to = parameters.text("save_map");

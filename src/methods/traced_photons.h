@@ -30,6 +30,7 @@ public:
     // those that survive by it. The pool holds batch_size() paths.
     TracedPhotons trace(PathPool& pool, std::uint64_t set, ImportanceMap* importance = nullptr);
     std::size_t batch_size() const { return settings_.paths; }
+    void serialize(StateArchive& archive) { tracer_.serialize(archive); }
     std::uint64_t light_paths() const { return batches_ * settings_.paths; } // of a set
 
 private:
@@ -52,6 +53,7 @@ class MapPhotonTracer
 public:
     MapPhotonTracer(RenderContext& context, const Parameters& parameters);
     MapPhotons trace(std::uint64_t set);
+    void serialize(StateArchive& archive);
 
     const MapTracer& global() const { return global_; }
     const std::optional<MapTracer>& caustic() const { return caustic_; }
