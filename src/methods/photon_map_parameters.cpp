@@ -106,8 +106,8 @@ ParameterSpec progressive_relaxation_spec()
             ParameterType::boolean,
             "false",
             "",
-            "Trace new photons in each iteration, give their flux to those of the first, and move these until they have equal flux (Spencer and "
-            "Jones 2013); needs unbounded max_depth.",
+            "Trace new photons in each iteration, give their flux to those of the first, and move these until they have equal flux "
+            "(Spencer and Jones 2013); needs unbounded max_depth.",
             0,
             0,
             {}};

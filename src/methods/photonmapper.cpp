@@ -119,10 +119,12 @@ private:
         const std::string name = "relaxation_progressive";
         if (!parameters.boolean(name)) return;
         if (is_spectral(parameters))
-            parameters.refuse(name, "photonmapper cannot take both " + name + "=true and spectral=true: flux of other wavelengths does not add up");
+            parameters.refuse(name, "photonmapper cannot take both " + name +
+                                        "=true and spectral=true: flux of other wavelengths does not add up");
         for (const char* file : {"save_map", "load_map"})
             if (!parameters.text(file).empty())
-                parameters.refuse(name, "photonmapper cannot take both " + name + "=true and " + file + ": each iteration changes the maps");
+                parameters.refuse(name,
+                                  "photonmapper cannot take both " + name + "=true and " + file + ": each iteration changes the maps");
         if (path_rules(parameters).max_depth != UNBOUNDED_DEPTH)
             parameters.refuse(name, "photonmapper's " + name + "=true sums light of all depths: it cannot go with max_depth=" +
                                         parameters.text("max_depth") + "; use -p max_depth=-1");
@@ -195,10 +197,13 @@ const MethodRegistration registration({
     .description =
         "Traces a global and a caustic photon map once, and looks light up in them, diffuse light by final gathering. Soft light without "
         "noise after few iterations; the maps' blur stays however long it renders.",
-    .parameters = {global_photons_spec(), global_radius_spec(), caustic_photons_spec(), caustic_radius_spec(), lookup_spec(),
-                   nearest_spec(), filter_kernel_spec(), relaxation_spec(), progressive_relaxation_spec(), final_gather_spec(), precompute_spec(), importons_spec(), save_map_spec(),
-                   load_map_spec(), direct_spec(), light_choice_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"),
-                   sampler_spec(), spectral_spec(), iterations_spec()},
+    .parameters = {global_photons_spec(), global_radius_spec(), caustic_photons_spec(),
+                   caustic_radius_spec(), lookup_spec(),        nearest_spec(),
+                   filter_kernel_spec(),  relaxation_spec(),    progressive_relaxation_spec(),
+                   final_gather_spec(),   precompute_spec(),    importons_spec(),
+                   save_map_spec(),       load_map_spec(),      direct_spec(),
+                   light_choice_spec(),   max_depth_spec(),     rr_depth_spec(1, "light subpaths, by albedo"),
+                   sampler_spec(),        spectral_spec(),      iterations_spec()},
     .follows_motion = false,
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<PhotonMapping>(context, parameters);

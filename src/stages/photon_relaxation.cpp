@@ -50,8 +50,8 @@ void PhotonRelaxation::relax(std::vector<Photon>& photons, int sweeps, float ste
     records.assign(photons);
     const Bounds bounds = bounds_of(photons);
     PhotonMap map(device_, bounds); // which photons may leave, by little: then they lie in its outermost cells
-    const Relaxation relaxation{radius_of_photons(bounds, photons.size(), 0.5 * neighbours, largest_radius_), largest_radius_, least_cosine_,
-                                step};
+    const Relaxation relaxation{radius_of_photons(bounds, photons.size(), 0.5 * neighbours, largest_radius_), largest_radius_,
+                                least_cosine_, step};
     for (int sweep = 0; sweep < sweeps; sweep++) {
         map.build_dense(records, photons.size(), relaxation.first_radius);
         relax_photons_(photons.size(), map.grid(), map.cell_ends(), map.cell_ends_offset(), map.streams(), relaxation,

@@ -11,8 +11,7 @@ namespace
 // Photons whose flux is their index, for find_nearest_photons.
 std::vector<Photon> numbered(std::vector<Photon> photons)
 {
-    for (std::size_t i = 0; i < photons.size(); i++)
-        photons[i].flux = {static_cast<float>(i & 0xffffu), static_cast<float>(i >> 16), 0.0f};
+    for (std::size_t i = 0; i < photons.size(); i++) photons[i].flux = {static_cast<float>(i & 0xffffu), static_cast<float>(i >> 16), 0.0f};
     return photons;
 }
 

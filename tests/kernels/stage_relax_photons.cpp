@@ -140,7 +140,9 @@ TEST_F(RelaxPhotons, EvenLightLosesMostOfItsNoise)
 TEST_F(RelaxPhotons, EvenLightBecomesBlueNoise)
 {
     const std::vector<Photon> photons = even_light(8000), evened = relaxed(photons, 10);
-    const auto power = [&](const std::vector<Photon>& some, double low, double high) { return mean_power(some, 0.8, low, high, 400, random_); };
+    const auto power = [&](const std::vector<Photon>& some, double low, double high) {
+        return mean_power(some, 0.8, low, high, 400, random_);
+    };
     // A standard error by chance is 0.05, or 0.07 where many of the few frequencies are drawn twice.
     for (const double f : {0.2, 0.5, 1.0, 2.0}) EXPECT_NEAR(power(photons, f, f + 0.15), 1.0, 0.3) << f;
     EXPECT_LT(power(evened, 0.2, 0.35), 0.1);

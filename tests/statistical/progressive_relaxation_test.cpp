@@ -86,7 +86,8 @@ TEST(ProgressiveRelaxation, NoiseFallsWithIterations)
     parameters["final_gather"] = "false";
     parameters["caustic_photons"] = "4096";
     parameters["caustic_radius"] = "0.05";
-    const double few = noise_of(scene, request("photonmapper", 2, parameters)), many = noise_of(scene, request("photonmapper", 24, parameters));
+    const double few = noise_of(scene, request("photonmapper", 2, parameters)),
+                 many = noise_of(scene, request("photonmapper", 24, parameters));
     parameters["relaxation_progressive"] = "false";
     const double fixed = noise_of(scene, request("photonmapper", 24, parameters));
     const double sppm = noise_of(scene, request("sppm", 24, {{"photons", "4096"}, {"radius", "0.05"}, {"direct", "photons"}}));

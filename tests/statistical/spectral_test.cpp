@@ -79,8 +79,9 @@ TEST_P(SpectralMethods, OneBounceIsThatOfRgb)
     const Scene scene = cornell_box(16);
     const std::map<std::string, std::string> once{{"max_depth", "2"}, {"rr_depth", "9"}};
     // ppm sees four points of a pixel, whatever its passes.
-    expect_same_means({channel_estimates(scene, request(GetParam(), 24, false, once)), channel_estimates(scene, request(GetParam(), 24, true, once))},
-                      {"rgb", "spectral"}, 0.0, GetParam() == "ppm" ? 0.1 : 0.05);
+    expect_same_means(
+        {channel_estimates(scene, request(GetParam(), 24, false, once)), channel_estimates(scene, request(GetParam(), 24, true, once))},
+        {"rgb", "spectral"}, 0.0, GetParam() == "ppm" ? 0.1 : 0.05);
 }
 
 // Grey multiplies alike in both, however often, so that white light stays white.
@@ -186,7 +187,9 @@ TEST_P(SpectralMethods, ResumedIsUninterrupted)
     EXPECT_TRUE(resumed.image().pixels == whole.image().pixels);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, SpectralMethods, testing::Values("path", "ptracer", "pppm", "sppm", "cppm", "appm", "ppm", "photonmapper"), [](const auto& method) { return method.param; });
+INSTANTIATE_TEST_SUITE_P(Methods, SpectralMethods,
+                         testing::Values("path", "ptracer", "pppm", "sppm", "cppm", "appm", "ppm", "photonmapper"),
+                         [](const auto& method) { return method.param; });
 
 // A gather ray that glass has bent asks with its hero alone, three times as strong.
 TEST(Spectral, GatherRaysDisperse)
@@ -258,8 +261,10 @@ TEST(Spectral, PhotonMapsKeepTheirPhotons)
 {
     Scene scene = cornell_box(16);
     for (auto& bsdf : scene.bsdfs) bsdf.model = DiffuseBsdf{{0.7f, 0.7f, 0.7f}};
-    const std::map<std::string, std::string> looked_up{{"final_gather", "false"}, {"direct", "photons"}, {"radius", "0.1"}, {"photons", "2000"}};
-    const auto grey = passes_of(scene, request("photonmapper", 4, false, looked_up)), tinted = passes_of(scene, request("photonmapper", 4, true, looked_up));
+    const std::map<std::string, std::string> looked_up{
+        {"final_gather", "false"}, {"direct", "photons"}, {"radius", "0.1"}, {"photons", "2000"}};
+    const auto grey = passes_of(scene, request("photonmapper", 4, false, looked_up)),
+               tinted = passes_of(scene, request("photonmapper", 4, true, looked_up));
     for (std::size_t pass = 0; pass < grey.size(); pass++) {
         for (int c = 0; c < 3; c++) {
             const double tint = channel_mean(tinted[pass], c) / channel_mean(grey[pass], c);
@@ -284,7 +289,8 @@ TEST(Spectral, HitPointsStayWhereNothingDisperses)
     const auto sees = [&](std::size_t pass, int x, int y) { return passes[pass].at(x, y, 1) > 0.0f; };
     for (int y = 0; y < 32; y++) {
         for (int x = 0; x < 32; x++) {
-            for (std::size_t pass = 1; pass < passes.size(); pass++) ASSERT_EQ(sees(pass, x, y), sees(0, x, y)) << x << ", " << y << " in pass " << pass;
+            for (std::size_t pass = 1; pass < passes.size(); pass++)
+                ASSERT_EQ(sees(pass, x, y), sees(0, x, y)) << x << ", " << y << " in pass " << pass;
             lit += sees(0, x, y);
             if (x > 0) edge += sees(0, x, y) != sees(0, x - 1, y);
         }
@@ -387,7 +393,9 @@ TEST(Spectral, HitPointsBehindAPrismShowEachColourElsewhere)
     const Scene scene = lamp_behind_prism();
     std::vector<std::vector<Estimate>> all;
     for (const char* method : {"path", "ppm"}) {
-        all.push_back(moments_across(scene, request(method, 48, true, method == std::string("ppm") ? std::map<std::string, std::string>{{"photons", "16"}} : std::map<std::string, std::string>{})));
+        all.push_back(moments_across(scene, request(method, 48, true,
+                                                    method == std::string("ppm") ? std::map<std::string, std::string>{{"photons", "16"}}
+                                                                                 : std::map<std::string, std::string>{})));
         const auto& m = all.back();
         const double red = m[3].mean / m[0].mean, green = m[4].mean / m[1].mean, blue = m[5].mean / m[2].mean;
         EXPECT_GT(std::abs(red - blue), 0.05) << method;

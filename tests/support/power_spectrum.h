@@ -21,7 +21,8 @@ inline double mean_power(const std::vector<Photon>& photons, double half_side, d
         const double x = photon.position.x, y = photon.position.y;
         if (std::abs(x) < half_side && std::abs(y) < half_side) inside.emplace_back(x, y);
     }
-    const double side = 2.0 * half_side, n = static_cast<double>(inside.size()), unit = std::sqrt(n); // unit: root of the density, in 1 / side
+    const double side = 2.0 * half_side, n = static_cast<double>(inside.size()),
+                 unit = std::sqrt(n); // unit: root of the density, in 1 / side
     std::uniform_real_distribution<double> square(low * low, high * high), turn(0.0, 2.0 * std::numbers::pi);
     double sum = 0.0;
     for (int i = 0; i < samples; i++) {
