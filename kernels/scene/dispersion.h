@@ -15,19 +15,21 @@
 #define DISPERSION 0
 #endif
 
-// A camera path's hero (0, 1 or 2): random in the first pass, the next one in each pass after it.
-static inline uint camera_hero(SamplerKey key, uint path)
+// A camera path's hero (0, 1 or 2): random in the first pass, the next one in each pass after it. By the pass and not by
+// the key, for a path that is traced again with the random numbers of an earlier pass has another hero as well.
+static inline uint camera_hero(const SurfaceView* scene, SamplerKey key, uint path)
 {
     const uint first = hash_combine(hash_combine(hash_combine(key.seed_low, key.seed_high), STREAM_CAMERA), path);
-    return (first % 3u + key.iteration_low % 3u) % 3u;
+    return (first % 3u + scene->globals->wavelengths.camera_turn) % 3u;
 }
 
-// A light path's: each path takes its turn, beginning with a random hero in each pass. Independent of camera paths: a
-// photon counts for a query where their heroes agree, and its weight of 9 relies on that having probability 1/9.
-static inline uint light_hero(SamplerKey key, uint path)
+// A light path's: each path takes its turn, beginning with a random hero in the first pass and the next one in every
+// third pass. Independent of camera paths: a photon counts for a query where their heroes agree, and its weight of 9 relies
+// on that having probability 1/9. All nine pairs of a photon and a query that stay where they are come in nine passes.
+static inline uint light_hero(const SurfaceView* scene, SamplerKey key, uint path)
 {
-    const uint pass = hash_combine(hash_combine(STREAM_LIGHT, key.iteration_low), key.iteration_high);
-    return (hash_combine(hash_combine(pass, key.seed_low), key.seed_high) % 3u + path % 3u) % 3u;
+    const uint first = hash_combine(hash_combine(STREAM_LIGHT, key.seed_low), key.seed_high);
+    return (first % 3u + path % 3u + scene->globals->wavelengths.light_turn) % 3u;
 }
 
 // Square of the index at three wavelengths by Sellmeier's formula, n^2 = 1 + sum of B l^2 / (l^2 - C).

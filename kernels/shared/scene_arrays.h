@@ -24,7 +24,7 @@ typedef struct SceneGlobals {
     uint attribute_count; // distinct names of mesh attributes; attribute_ranges has so many a shape
     Wavelengths wavelengths; // of the pass, in spectral transport
 } SceneGlobals;
-SHARED_SIZE(SceneGlobals, 152);
+SHARED_SIZE(SceneGlobals, 160);
 
 // X(element type, array name). One SceneGlobals, `globals`, stands before the lists.
 #define GEOMETRY_ARRAYS(X)                                                                         \

@@ -11,8 +11,11 @@ typedef struct Wavelengths {
     Vec3 reflectance[3]; // row k: reflectance at wavelength k = row . rgb
     Vec3 emission[3];    // the same for what lights emit
     Vec3 to_rgb[3];      // row c: channel c of a film sample = row . (values at the wavelengths)
+    // Heroes of paths step on by these from pass to pass, 0, 1 or 2 (scene/dispersion.h).
+    uint camera_turn;
+    uint light_turn;
 } Wavelengths;
-SHARED_SIZE(Wavelengths, 120);
+SHARED_SIZE(Wavelengths, 128);
 
 SHARED_END
 #endif

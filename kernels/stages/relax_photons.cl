@@ -7,11 +7,15 @@
 //   feel no gradient;
 // - where they lie to one side, as at the edge of a caustic or of a surface, it does not move to the other;
 // - where they lie along a line, it moves along that alone.
+// With -D EQUAL_FLUX=1 [Spencer and Jones 2013, ACM TOG 32(1), Progressive Photon Relaxation] neighbour k pushes with the weight
+// 2 - F_k / F, at least 0, F_k being its flux and F the mean of theirs: those that have little push more. A linear gradient g of
+// the flux relative to F then moves photons up by g r^2 / 12 a sweep, to where each of them stands for too much light.
 // Reads cell ends of a dense grid and photon streams, which hold the positions before the sweep; updates photons. One
 // work-item a photon. Used by photonmapper.
 #include "density/photon_grid.h"
 #include "density/wanted_photons.h"
 #include "math/frame.h"
+#include "math/luminance.h"
 #include "math/simd8.h"
 #include "shared/relaxation.h"
 
@@ -23,22 +27,44 @@
 // Fewer than this show nothing.
 #define LEAST_NEIGHBOURS 4u
 
+#ifndef EQUAL_FLUX
+#define EQUAL_FLUX 0
+#endif
+
 // In the tangent plane, nearest first.
 typedef struct Neighbours {
     uint count;
     float squares[NEIGHBOURS]; // of distances
     float2 offsets[NEIGHBOURS];
+#if EQUAL_FLUX
+    float flux[NEIGHBOURS]; // luminance of it
+#endif
 } Neighbours;
 
-static inline void insert_neighbour(Neighbours* neighbours, float square, float2 offset)
+static inline void insert_neighbour(Neighbours* neighbours, float square, float2 offset, float flux)
 {
     uint place = neighbours->count < NEIGHBOURS ? neighbours->count++ : NEIGHBOURS - 1u;
     for (; place > 0u && neighbours->squares[place - 1u] > square; --place) {
         neighbours->squares[place] = neighbours->squares[place - 1u];
         neighbours->offsets[place] = neighbours->offsets[place - 1u];
+#if EQUAL_FLUX
+        neighbours->flux[place] = neighbours->flux[place - 1u];
+#endif
     }
     neighbours->squares[place] = square;
     neighbours->offsets[place] = offset;
+#if EQUAL_FLUX
+    neighbours->flux[place] = flux;
+#endif
+}
+
+// Luminance of a photon's flux; 0 where nobody asks.
+static inline float flux_of(__global const float* streams, uint stride, uint place)
+{
+    if (!EQUAL_FLUX) return 0.0f;
+    const float3 flux = (float3)(streams[(size_t)PHOTON_RED * stride + place], streams[(size_t)PHOTON_GREEN * stride + place],
+                                 streams[(size_t)PHOTON_BLUE * stride + place]);
+    return dot(flux, LUMINANCE_WEIGHTS);
 }
 
 // Those nearer than the root of `limit`. Returns the limit for what follows.
@@ -62,7 +88,7 @@ static inline float add_neighbours(PhotonRun run, const GatherQuery* self, float
             if (!(distance[k] < limit)) continue;
             const uint packed = as_uint(streams[(size_t)PHOTON_DIRECTION * stride + i + (uint)k]);
             if (least_cosine > -1.0f && dot(unpack_direction(packed), direction) < least_cosine) continue;
-            insert_neighbour(neighbours, distance[k], (float2)(u[k], v[k]));
+            insert_neighbour(neighbours, distance[k], (float2)(u[k], v[k]), flux_of(streams, stride, i + (uint)k));
             if (neighbours->count == NEIGHBOURS) limit = neighbours->squares[NEIGHBOURS - 1u];
         }
     }
@@ -84,12 +110,33 @@ static inline float2 line_of(const Neighbours* neighbours)
     return uu >= vv ? normalize((float2)(middle + spread - vv, uv)) : normalize((float2)(uv, middle + spread - uu));
 }
 
+// By which each neighbour's flux is to be multiplied for the mean to be 1.
+static inline float inverse_mean_flux(const Neighbours* neighbours)
+{
+#if EQUAL_FLUX
+    float sum = 0.0f;
+    for (uint k = 0u; k < neighbours->count; ++k) sum += neighbours->flux[k];
+    return (float)neighbours->count / fmax(sum, 1e-30f);
+#else
+    return 0.0f;
+#endif
+}
+
+static inline float push_of(const Neighbours* neighbours, uint k, float inverse_mean)
+{
+#if EQUAL_FLUX
+    return fmax(2.0f - neighbours->flux[k] * inverse_mean, 0.0f);
+#else
+    return 1.0f;
+#endif
+}
+
 static inline float2 displacement(const Neighbours* neighbours)
 {
-    const float r = sqrt(neighbours->squares[neighbours->count - 1u]);
+    const float r = sqrt(neighbours->squares[neighbours->count - 1u]), inverse_mean = inverse_mean_flux(neighbours);
     float2 away = (float2)(0.0f), centroid = (float2)(0.0f);
     for (uint k = 0u; k < neighbours->count; ++k) {
-        away -= neighbours->offsets[k] * (r * rsqrt(neighbours->squares[k]) - 1.0f);
+        away -= neighbours->offsets[k] * ((r * rsqrt(neighbours->squares[k]) - 1.0f) * push_of(neighbours, k, inverse_mean));
         centroid += neighbours->offsets[k];
     }
     away /= (float)neighbours->count;
@@ -127,6 +174,6 @@ __kernel void relax_photons(PhotonGrid grid, __global const uint* restrict cell_
         if (neighbours.count == NEIGHBOURS || radius >= relaxation.largest_radius) break;
     }
     if (neighbours.count < LEAST_NEIGHBOURS) return;
-    const float2 away = displacement(&neighbours);
+    const float2 away = relaxation.step * displacement(&neighbours);
     photons[index].position = pack(unpack(photon.position) + frame.s * away.x + frame.t * away.y);
 }

@@ -35,7 +35,7 @@ __kernel void shade_camera_path(SURFACE_PARAMETERS, SamplerKey key, PathRules ru
     Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
     const uint4 words = next_words(&sampler);
     Scattering scattering = scattering_at(&scene, &surface, unit_float(words.w));
-    disperse(camera_hero(key, index), &path, &scattering);
+    disperse(camera_hero(&scene, key, index), &path, &scattering);
     if (!is_specular(&scattering) && !is_black_side(&scattering)) {
         Ray shadow_ray;
         shadow_radiance[index] = pack(throughput * sample_direct_light(&scene, &surface, &scattering, words, true, &shadow_ray));

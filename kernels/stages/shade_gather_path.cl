@@ -22,7 +22,8 @@ __kernel void shade_gather_path(SURFACE_PARAMETERS, SamplerKey key, PathRules ru
     const Surface surface = surface_at(&scene, rays[index], hit);
     const uint2 pixel = pixel_of_path(index, width, height);
     Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
-    const Scattering scattering = scattering_at(&scene, &surface, unit_float(next_words(&sampler).w));
+    Scattering scattering = scattering_at(&scene, &surface, unit_float(next_words(&sampler).w));
+    disperse(camera_hero(&scene, key, index), &path, &scattering);
     if (is_black_side(&scattering)) return;
     if (!is_specular(&scattering) && !is_narrow(&scattering)) {
         const GatherQuery query = make_query(&surface, &scattering, unpack(path.throughput), edges_left(rules, &path), radius);

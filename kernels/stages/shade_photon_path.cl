@@ -29,7 +29,7 @@ __kernel void shade_photon_path(SURFACE_PARAMETERS, SamplerKey key, PathRules ru
         const Surface surface = surface_at(&scene, rays[index], hit);
         Sampler sampler = light_sampler(key, index, path_count, path.depth);
         Scattering scattering = scattering_at(&scene, &surface, next_4d(&sampler).x);
-        disperse(light_hero(key, index), &path, &scattering);
+        disperse(light_hero(&scene, key, index), &path, &scattering);
         const bool counted_elsewhere = DIRECT_LIGHT && path.depth == 1u && !(path.flags & PATH_FROM_COLLIMATED_LIGHT);
         const bool unreached = (path.flags & PATH_FROM_DELTA_LIGHT) && path.scattered == 0u;
         if (wants_photons(&scene, &surface, !unreached) && !counted_elsewhere && keeps_photon(&path)) {

@@ -60,7 +60,7 @@ __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rul
     Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
     const uint4 words = next_words(&sampler);
     Scattering scattering = scattering_at(&scene, &surface, unit_float(words.w));
-    disperse(camera_hero(key, index), &path, &scattering);
+    disperse(camera_hero(&scene, key, index), &path, &scattering);
     if (is_black_side(&scattering)) return;
 #if DIRECT_LIGHT
     if (!is_specular(&scattering)) {

@@ -23,7 +23,7 @@ __kernel void shade_splat_path(SURFACE_PARAMETERS, Camera camera, __global const
     Sampler sampler = light_sampler(key, index, path_count, path.depth);
     const float4 u = next_4d(&sampler);
     Scattering scattering = scattering_at(&scene, &surface, next_4d(&sampler).x);
-    disperse(light_hero(key, index), &path, &scattering);
+    disperse(light_hero(&scene, key, index), &path, &scattering);
     if (!is_specular(&scattering) && !is_black_side(&scattering)) {
         const LensConnection connection = connect_to_lens(&camera, filter, &surface, &scattering, unpack(path.throughput), u);
         deposits[item] = connection.splat;

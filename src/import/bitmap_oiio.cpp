@@ -2,6 +2,7 @@
 
 #include "math/half.h"
 #include "math/srgb.h"
+#include "scene/texel_values.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -69,22 +70,6 @@ std::vector<float> linear_values(const std::vector<float>& pixels, int channels,
     return values;
 }
 
-// In half floats if they can hold all of them.
-void pack_floats(const std::vector<float>& values, TexelImage& image)
-{
-    const bool fit = std::all_of(values.begin(), values.end(), [](float value) { return std::abs(value) <= largest_half; });
-    image.format = fit ? TexelFormat::half : TexelFormat::float32;
-    image.texels.reserve(values.size() / 3 * image.words_per_texel());
-    for (std::size_t i = 0; i < values.size(); i += 3) {
-        if (fit) {
-            image.texels.push_back(half_from_float(values[i]) | static_cast<uint>(half_from_float(values[i + 1])) << 16);
-            image.texels.push_back(half_from_float(values[i + 2]));
-        } else {
-            for (std::size_t c = 0; c < 3; c++) image.texels.push_back(std::bit_cast<uint>(values[i + c]));
-        }
-    }
-}
-
 OIIO::TypeDesc file_type(TexelFormat format)
 {
     switch (format) {
@@ -138,7 +123,8 @@ TexelImage load_bitmap(const std::filesystem::path& file, const SourceLocation& 
         return image;
     }
     const bool encoded = !raw && !spec.format.is_floating_point();
-    pack_floats(linear_values(read_pixels<float>(*input, OIIO::TypeDesc::FLOAT, file, wanted_at), spec.nchannels, encoded, replaced), image);
+    set_linear_texels(image,
+                      linear_values(read_pixels<float>(*input, OIIO::TypeDesc::FLOAT, file, wanted_at), spec.nchannels, encoded, replaced));
     return image;
 }
 

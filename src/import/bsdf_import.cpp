@@ -214,7 +214,8 @@ PlasticBsdf BsdfImporter::read_plastic(ObjectReader& reader, bool rough)
     return bsdf;
 }
 
-// 0.6: what adds up to more than 1 is scaled to 0.99. Of textures nothing is known here, and they are left alone.
+// What adds up to more than 1 in some channel is scaled to 0.99, as by 0.6 (BSDF::ensureEnergyConservation in its
+// librender/bsdf.cpp), which takes the largest texel of a texture for it; here textures are left alone.
 PhongBsdf BsdfImporter::read_phong(ObjectReader& reader)
 {
     PhongBsdf bsdf;

@@ -1,11 +1,10 @@
 #include "import/texture_budget.h"
 
-#include "math/half.h"
+#include "math/double3.h"
 #include "math/srgb.h"
 #include "scene/texel_values.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 
@@ -15,22 +14,34 @@ namespace sundog
 namespace
 {
 
-void append_texel(TexelImage& image, Vec3 color)
+// Of 8 bits a channel.
+uint packed_bytes(TexelFormat format, const Double3& color)
 {
-    if (image.format == TexelFormat::float32) {
-        for (const float channel : {color.x, color.y, color.z}) image.texels.push_back(std::bit_cast<uint>(channel));
-        return;
-    }
-    if (image.format == TexelFormat::half) {
-        image.texels.push_back(half_from_float(color.x) | static_cast<uint>(half_from_float(color.y)) << 16);
-        image.texels.push_back(half_from_float(color.z));
-        return;
-    }
-    const auto byte = [&](float linear) -> uint {
-        if (image.format == TexelFormat::srgb8) return srgb8_from_linear(linear);
-        return static_cast<uint>(std::lround(255.0f * std::clamp(linear, 0.0f, 1.0f)));
+    const auto byte = [&](double linear) -> uint {
+        if (format == TexelFormat::srgb8) return srgb8_from_linear(static_cast<float>(linear));
+        return static_cast<uint>(std::lround(255.0 * std::clamp(linear, 0.0, 1.0)));
     };
-    image.texels.push_back(byte(color.x) | byte(color.y) << 8 | byte(color.z) << 16);
+    return byte(color[0]) | byte(color[1]) << 8 | byte(color[2]) << 16;
+}
+
+bool is_of_bytes(TexelFormat format)
+{
+    return format == TexelFormat::srgb8 || format == TexelFormat::linear8;
+}
+
+// Of the texels of a rectangle. In double precision, for the sum of floats may be beyond a float.
+Double3 mean_texel(const TexelImage& image, int left, int top, int right, int bottom)
+{
+    Double3 sum{};
+    for (int y = top; y < bottom; y++) {
+        for (int x = left; x < right; x++) {
+            const Vec3 texel =
+                linear_texel(image, static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
+            sum = {sum[0] + texel.x, sum[1] + texel.y, sum[2] + texel.z};
+        }
+    }
+    const double count = static_cast<double>(right - left) * (bottom - top);
+    return {sum[0] / count, sum[1] / count, sum[2] / count};
 }
 
 std::uint64_t bytes_of(const TexelImage& image)
@@ -72,17 +83,18 @@ TexelImage halved(const TexelImage& image)
     half.format = image.format;
     half.width = std::max(1, image.width / 2);
     half.height = std::max(1, image.height / 2);
-    half.texels.reserve(static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height) * image.words_per_texel());
+    std::vector<float> values; // of what is not bytes
     for (int y = 0; y < half.height; y++) {
         const int top = y * image.height / half.height, bottom = (y + 1) * image.height / half.height;
         for (int x = 0; x < half.width; x++) {
-            const int left = x * image.width / half.width, right = (x + 1) * image.width / half.width;
-            Vec3 sum{0, 0, 0};
-            for (int j = top; j < bottom; j++)
-                for (int i = left; i < right; i++) sum = sum + linear_texel(image, static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(i));
-            append_texel(half, sum / static_cast<float>((right - left) * (bottom - top)));
+            const Double3 mean = mean_texel(image, x * image.width / half.width, top, (x + 1) * image.width / half.width, bottom);
+            if (is_of_bytes(half.format))
+                half.texels.push_back(packed_bytes(half.format, mean));
+            else
+                for (const double channel : mean) values.push_back(static_cast<float>(channel));
         }
     }
+    if (!is_of_bytes(half.format)) set_linear_texels(half, values);
     return half;
 }
 

@@ -14,7 +14,8 @@ namespace sundog
 // that several textures share count once.
 void fit_texture_budget(Scene& scene, std::uint64_t budget, std::vector<Warning>& warnings);
 
-// Half the width and height (rounded down, at least 1), each texel the mean of those that it covers, in linear light.
+// Half the width and height (rounded down, at least 1), each texel the mean of those that it covers, in linear light. Floats
+// become half floats where these hold all of them (set_linear_texels), as in a file of that size.
 TexelImage halved(const TexelImage& image);
 
 } // namespace sundog

@@ -100,6 +100,19 @@ ParameterSpec relaxation_spec()
             "Move photons apart until they lie evenly, so that few suffice for a lookup; about 10 (Spencer and Jones 2009).", 0, 1000, {}};
 }
 
+ParameterSpec progressive_relaxation_spec()
+{
+    return {"relaxation_progressive",
+            ParameterType::boolean,
+            "false",
+            "",
+            "Trace new photons in each iteration, give their flux to those of the first, and move these until they have equal flux "
+            "(Spencer and Jones 2013); needs unbounded max_depth.",
+            0,
+            0,
+            {}};
+}
+
 ParameterSpec final_gather_spec()
 {
     return {"final_gather",

@@ -15,6 +15,7 @@ ParameterSpec caustic_radius_spec();
 ParameterSpec lookup_spec();
 ParameterSpec nearest_spec();
 ParameterSpec relaxation_spec();
+ParameterSpec progressive_relaxation_spec();
 ParameterSpec final_gather_spec();
 ParameterSpec precompute_spec();
 ParameterSpec save_map_spec();

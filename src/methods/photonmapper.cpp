@@ -2,6 +2,11 @@
 // sees first is lit straight from the lights by next-event estimation, by focused light from the caustic map, and by all
 // other light from the global map: looked up where a ray that gathers it arrives [section 4.2], or at once. Iterations
 // average camera paths; the maps' blur and noise stay.
+//
+// In spectral transport the maps are traced again in each iteration, by the same random numbers at that iteration's
+// wavelengths: the same photons, in other colours, and elsewhere only where glass bends each colour another way.
+//
+// With progressive relaxation each iteration traces new photons, whose flux those of the first take up.
 #include "base/errors.h"
 #include "base/hash.h"
 #include "methods/importons.h"
@@ -12,6 +17,7 @@
 #include "stages/final_gather.h"
 #include "stages/photon_relaxation.h"
 #include "stages/precomputed_irradiance.h"
+#include "stages/progressive_relaxation.h"
 
 #include <optional>
 
@@ -28,30 +34,26 @@ class PhotonMapping final : public Method
 {
 public:
     PhotonMapping(RenderContext& context, const Parameters& parameters)
-        : context_(context),
+        : context_(context), parameters_(parameters),
           camera_(context.device, context.camera, context.filter, sampler_kind(parameters), context.scene.surface_options()),
           are_loaded_(!parameters.text("load_map").empty()), pool_(context.device, context.scene, camera_.count()),
           visible_(context.device, context.scene, camera_.count(), query_rules(parameters), parameters.text("direct") == "nee",
                    sampler_kind(parameters))
     {
         check(parameters);
-        MapPhotons photons = make_map_photons(context, parameters);
-        const int sweeps = static_cast<int>(parameters.integer("relaxation"));
-        const PhotonLookup lookup = global_lookup(context, parameters, photons.global.light_paths);
-        if (sweeps > 0) PhotonRelaxation(context.device, lookup.radius, any_direction).relax(photons.global.photons, sweeps);
         if (parameters.boolean("final_gather"))
             final_gather_.emplace(context.device, context.scene, camera_.count(), query_rules(parameters), sampler_kind(parameters));
-        add_map(global_, photons.global, lookup);
-        if (photons.caustic) {
-            const PhotonLookup focused = caustic_lookup(context, parameters, photons.caustic->light_paths);
-            if (sweeps > 0) PhotonRelaxation(context.device, focused.radius, one_wavefront).relax(photons.caustic->photons, sweeps);
-            add_map(caustic_, *photons.caustic, focused);
-        }
-        if (parameters.boolean("precompute")) irradiance_.emplace(context.device, context.scene, photons.global.photons, *global_);
+        if (context.spectral.is_on() || parameters.boolean("relaxation_progressive"))
+            tracer_.emplace(context, parameters);
+        else
+            make_maps(make_map_photons(context, parameters));
+        if (parameters.boolean("relaxation_progressive")) begin_progressive_relaxation();
     }
 
     void render_pass(std::uint64_t iteration) override
     {
+        // At other wavelengths the same photons; else others.
+        if (tracer_) make_maps(tracer_->trace(context_.spectral.is_on() ? 0 : iteration));
         const SamplerKey key = sampler_key(context_.seed, iteration);
         const float radius = global_->lookup().radius;
         camera_.start(context_.scene, pool_, key);
@@ -65,6 +67,7 @@ public:
             global_->add_radiance(visible_.queries, visible_.lobes, camera_.radiance);
         }
         if (caustic_) caustic_->add_radiance(visible_.queries, visible_.lobes, camera_.radiance);
+        context_.spectral.to_rgb(camera_.radiance);
         context_.film.accumulate(camera_.radiance);
     }
 
@@ -80,6 +83,12 @@ public:
         archive.value("photon maps", maps);
         if (maps != digest_.low())
             throw FileError("cannot resume, the photon maps are not those that the render began with; load those (-p load_map=FILE)");
+        if (tracer_) tracer_->serialize(archive);
+        for (auto* relaxed : {&relaxed_global_, &relaxed_caustic_})
+            if (*relaxed) (*relaxed)->serialize(archive);
+        archive.value("map light paths", light_paths_);
+        archive.value("map photons", photons_stored_);
+        archive.value("map rays", rays_);
         pool_.serialize(archive);
     }
 
@@ -89,9 +98,14 @@ private:
         if (!parameters.text("save_map").empty() && !parameters.text("load_map").empty())
             parameters.refuse("save_map",
                               "photonmapper cannot take both save_map and load_map: maps that are loaded are in a file already");
+        for (const char* file : {"save_map", "load_map"})
+            if (is_spectral(parameters) && !parameters.text(file).empty())
+                parameters.refuse(file, "photonmapper cannot take both spectral=true and " + std::string(file) +
+                                            ": each iteration has photon maps of its own, at other wavelengths");
         if (parameters.integer("importons") > 0 && !parameters.text("load_map").empty())
             parameters.refuse("importons",
                               "photonmapper cannot take both importons and load_map: importons choose among photons that are traced");
+        check_progressive(parameters);
         if (!parameters.boolean("precompute")) return;
         if (!parameters.boolean("final_gather"))
             parameters.refuse("precompute", "photonmapper's precompute=true is for gather rays: it cannot go with final_gather=false");
@@ -100,9 +114,59 @@ private:
                                                 parameters.text("max_depth") + "; use -p max_depth=-1");
     }
 
+    static void check_progressive(const Parameters& parameters)
+    {
+        const std::string name = "relaxation_progressive";
+        if (!parameters.boolean(name)) return;
+        if (is_spectral(parameters))
+            parameters.refuse(name, "photonmapper cannot take both " + name +
+                                        "=true and spectral=true: flux of other wavelengths does not add up");
+        for (const char* file : {"save_map", "load_map"})
+            if (!parameters.text(file).empty())
+                parameters.refuse(name,
+                                  "photonmapper cannot take both " + name + "=true and " + file + ": each iteration changes the maps");
+        if (path_rules(parameters).max_depth != UNBOUNDED_DEPTH)
+            parameters.refuse(name, "photonmapper's " + name + "=true sums light of all depths: it cannot go with max_depth=" +
+                                        parameters.text("max_depth") + "; use -p max_depth=-1");
+    }
+
+    void begin_progressive_relaxation()
+    {
+        const float radius = global_lookup(context_, parameters_, tracer_->global().light_paths()).radius;
+        relaxed_global_.emplace(context_.device, radius, any_direction);
+        if (!tracer_->caustic()) return;
+        const float focused = caustic_lookup(context_, parameters_, tracer_->caustic()->light_paths()).radius;
+        relaxed_caustic_.emplace(context_.device, focused, one_wavefront);
+    }
+
+    // Moves photons to where the map is to have them; with progressive relaxation they become those of all iterations.
+    void relax(std::vector<Photon>& photons, float radius, float least_cosine, std::optional<ProgressiveRelaxation>& progressive)
+    {
+        const int sweeps = static_cast<int>(parameters_.integer("relaxation"));
+        const bool are_first = !progressive || progressive->passes() == 0;
+        if (sweeps > 0 && are_first) PhotonRelaxation(context_.device, radius, least_cosine).relax(photons, sweeps);
+        if (!progressive) return;
+        progressive->add_pass(photons);
+        photons = progressive->photons();
+    }
+
+    void make_maps(MapPhotons photons)
+    {
+        const PhotonLookup lookup = global_lookup(context_, parameters_, photons.global.light_paths);
+        relax(photons.global.photons, lookup.radius, any_direction, relaxed_global_);
+        add_map(global_, photons.global, lookup);
+        if (photons.caustic) {
+            const PhotonLookup focused = caustic_lookup(context_, parameters_, photons.caustic->light_paths);
+            relax(photons.caustic->photons, focused.radius, one_wavefront, relaxed_caustic_);
+            add_map(caustic_, *photons.caustic, focused);
+        }
+        if (parameters_.boolean("precompute")) irradiance_.emplace(context_.device, context_.scene, photons.global.photons, *global_);
+    }
+
     void add_map(std::optional<FixedPhotonMap>& map, const TracedPhotons& traced, const PhotonLookup& lookup)
     {
-        map.emplace(context_.device, context_.scene, camera_.count(), lookup, traced.photons, traced.light_paths);
+        // A map of the pass before goes when this one is there: both have the same programs.
+        map = FixedPhotonMap(context_.device, context_.scene, camera_.count(), lookup, traced.photons, traced.light_paths);
         light_paths_ += traced.light_paths;
         photons_stored_ += traced.photons.size();
         rays_ += traced.rays;
@@ -111,14 +175,17 @@ private:
     }
 
     RenderContext& context_;
+    Parameters parameters_;
     CameraPaths camera_;
     bool are_loaded_; // the maps
     PathPool pool_;
     QueryTracer visible_;
     std::optional<FinalGather> final_gather_;
+    std::optional<MapPhotonTracer> tracer_; // of each iteration's photons, where it has others than the one before
     std::optional<FixedPhotonMap> global_, caustic_;
+    std::optional<ProgressiveRelaxation> relaxed_global_, relaxed_caustic_;
     std::optional<PrecomputedIrradiance> irradiance_;
-    std::uint64_t light_paths_ = 0, photons_stored_ = 0, rays_ = 0; // of the maps
+    std::uint64_t light_paths_ = 0, photons_stored_ = 0, rays_ = 0; // of the maps; of those of all iterations
     Hash digest_;                                                   // of loaded photons: the file may change
 };
 
@@ -130,10 +197,13 @@ const MethodRegistration registration({
     .description =
         "Traces a global and a caustic photon map once, and looks light up in them, diffuse light by final gathering. Soft light without "
         "noise after few iterations; the maps' blur stays however long it renders.",
-    .parameters = {global_photons_spec(), global_radius_spec(), caustic_photons_spec(), caustic_radius_spec(), lookup_spec(),
-                   nearest_spec(), filter_kernel_spec(), relaxation_spec(), final_gather_spec(), precompute_spec(), importons_spec(), save_map_spec(),
-                   load_map_spec(), direct_spec(), light_choice_spec(), max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"),
-                   sampler_spec(), iterations_spec()},
+    .parameters = {global_photons_spec(), global_radius_spec(), caustic_photons_spec(),
+                   caustic_radius_spec(), lookup_spec(),        nearest_spec(),
+                   filter_kernel_spec(),  relaxation_spec(),    progressive_relaxation_spec(),
+                   final_gather_spec(),   precompute_spec(),    importons_spec(),
+                   save_map_spec(),       load_map_spec(),      direct_spec(),
+                   light_choice_spec(),   max_depth_spec(),     rr_depth_spec(1, "light subpaths, by albedo"),
+                   sampler_spec(),        spectral_spec(),      iterations_spec()},
     .follows_motion = false,
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<PhotonMapping>(context, parameters);

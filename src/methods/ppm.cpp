@@ -1,6 +1,10 @@
 // Progressive photon mapping [Hachisuka, Ogaki and Jensen 2008, ACM TOG 27(5)]: hit points are found once, and every
 // iteration brings new photons to them. Each hit point shrinks its own radius by the photons it finds. What a pixel
 // sees is what its hit points saw: edges, depth of field and soft reflections are as fine as there are hit points.
+//
+// In spectral transport hit points are found again in each iteration, by the same random numbers at that iteration's
+// wavelengths: with other throughputs, and, where glass bends each colour another way, spread over what the pixel sees by
+// all of them. Statistics go on, in linear sRGB.
 #include "methods/light_pass.h"
 #include "methods/method.h"
 #include "methods/photon_pass.h"
@@ -51,26 +55,28 @@ public:
             HitPoints& points = hit_points_.emplace_back(HitPoints{
                 CameraPaths(context.device, context.camera, context.filter, sampler_kind(parameters), context.scene.surface_options()),
                 QueryTracer(context.device, context.scene, pixels, query_rules(parameters), false, sampler_kind(parameters)),
-                ProgressiveStatistics(context.device, pixels, first_radius_, parameters.real("alpha"), DirectLight::constant)});
-            const SamplerKey key = sampler_key(context.seed, i);
-            points.camera.start(context.scene, pool_, key);
+                ProgressiveStatistics(context.device, pixels, first_radius_, parameters.real("alpha"),
+                                      context.spectral.is_on() ? DirectLight::varying : DirectLight::constant)});
+            points.camera.start(context.scene, pool_, key_of(i));
             points.camera.record_first_hits(context.scene, pool_, i, context.film.first_hits);
-            points.queries.trace(context.scene, points.camera, pool_, key, first_radius_);
+            if (!context.spectral.is_on()) points.queries.trace(context.scene, points.camera, pool_, key_of(i), first_radius_);
         }
     }
 
     void render_pass(std::uint64_t iteration) override
     {
         light_.trace(pool_, sampler_key(context_.seed, iteration), bias_ ? bias_->map_radius(iteration, first_radius_) : first_radius_);
-        const float inverse_paths = 1.0f / static_cast<float>(light_.light_paths() * hit_points_.size());
-        if (bias_) estimate_bias(iteration, inverse_paths);
+        if (context_.spectral.is_on()) find_hit_points_again();
+        if (bias_) estimate_bias(iteration);
+        const float inverse_paths = 1.0f / static_cast<float>(light_.light_paths()), share = 1.0f / static_cast<float>(hit_points_.size());
         clear_radiance_(radiance_.size(), static_cast<uint>(radiance_.size()), radiance_);
         for (HitPoints& points : hit_points_) {
             points.statistics.set_radii(points.queries.queries);
             gather_.gather(light_.map, points.queries.queries, points.queries.lobes, radiance_.size());
-            points.statistics.update(points.queries.queries, gather_.sums, points.camera.radiance, inverse_paths, radiance_);
+            context_.spectral.to_rgb(points.queries.queries, gather_.sums);
+            points.statistics.update(points.queries.queries, gather_.sums, points.camera.radiance, inverse_paths, share, radiance_);
         }
-        context_.film.accumulate(radiance_); // without the emission, which is always the same: for the variance
+        context_.film.accumulate(radiance_); // for the variance
         iterations_++;
     }
 
@@ -84,7 +90,8 @@ public:
 
     MethodCounters counters() const override
     {
-        return {iterations_ * light_.light_paths(), hit_points_.size() * context_.film.pixel_count(), light_.photons_stored(),
+        const std::uint64_t points = hit_points_.size() * context_.film.pixel_count();
+        return {iterations_ * light_.light_paths(), context_.spectral.is_on() ? iterations_ * points : points, light_.photons_stored(),
                 pool_.rays_traced()};
     }
 
@@ -98,13 +105,27 @@ public:
     }
 
 private:
-    // While the map is sorted for it.
-    void estimate_bias(std::uint64_t iteration, float inverse_paths)
+    SamplerKey key_of(std::uint64_t hit_point) const { return sampler_key(context_.seed, hit_point); }
+
+    void find_hit_points_again()
     {
+        for (std::size_t i = 0; i < hit_points_.size(); i++) {
+            HitPoints& points = hit_points_[i];
+            points.camera.start(context_.scene, pool_, key_of(i));
+            points.queries.trace(context_.scene, points.camera, pool_, key_of(i), first_radius_);
+            context_.spectral.to_rgb(points.camera.radiance);
+        }
+    }
+
+    // While the map is sorted for it.
+    void estimate_bias(std::uint64_t iteration)
+    {
+        const float inverse_paths = 1.0f / static_cast<float>(light_.light_paths() * hit_points_.size());
         for (HitPoints& points : hit_points_) {
             points.statistics.set_radii(points.queries.queries);
             bias_->add(light_.map, points.queries, iteration, {0, inverse_paths}); // 0: the uniform kernel
         }
+        context_.spectral.to_rgb(context_.film.errors->bias);
         light_.sort_again(first_radius_);
     }
 
@@ -138,7 +159,7 @@ const MethodRegistration registration({
                                  1,
                                  256,
                                  {}},
-                   max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), iterations_spec()},
+                   max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), spectral_spec(), iterations_spec()},
     .follows_motion = false,
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         refuse_other_parts(parameters);

@@ -32,11 +32,18 @@ void ProgressiveStatistics::set_radii(const Buffer<GatherQuery>& queries)
     set_query_radii_(pixels_.size(), pixels_, static_cast<uint>(pixels_.size()), queries);
 }
 
-void ProgressiveStatistics::update(const Buffer<GatherQuery>& queries, const Buffer<GatherSum>& sums, const Buffer<Vec3>& direct,
-                                   float inverse_paths, Buffer<Vec3>& radiance)
+void ProgressiveStatistics::update(const Buffer<GatherQuery>& queries, const Buffer<GatherSum>& sums, Buffer<Vec3>& direct,
+                                   float inverse_paths)
 {
-    update_progressive_pixels_(pixels_.size(), queries, sums, direct, static_cast<uint>(pixels_.size()), alpha_, inverse_paths, pixels_,
-                               direct_sums_, radiance);
+    update_progressive_pixels_(pixels_.size(), queries, sums, direct, static_cast<uint>(pixels_.size()), alpha_, inverse_paths, 0.0f,
+                               pixels_, direct_sums_, direct);
+}
+
+void ProgressiveStatistics::update(const Buffer<GatherQuery>& queries, const Buffer<GatherSum>& sums, const Buffer<Vec3>& direct,
+                                   float inverse_paths, float share, Buffer<Vec3>& radiance)
+{
+    update_progressive_pixels_(pixels_.size(), queries, sums, direct, static_cast<uint>(pixels_.size()), alpha_, inverse_paths * share,
+                               share, pixels_, direct_sums_, radiance);
 }
 
 std::vector<Double3> ProgressiveStatistics::mean_direct(const Buffer<Vec3>& direct, std::uint64_t iterations) const

@@ -24,9 +24,12 @@ public:
     void set_radii(const Buffer<GatherQuery>& queries);
 
     // Adds one iteration: what queries found, and the radiance that is not from photons (`direct`, W/m^2/sr). Also adds
-    // the iteration's own estimate, 1 / inverse_paths light subpaths strong, to `radiance`, which may be `direct`.
+    // the iteration's own estimate, 1 / inverse_paths light subpaths strong, to `radiance`, which is `direct`.
+    void update(const Buffer<GatherQuery>& queries, const Buffer<GatherSum>& sums, Buffer<Vec3>& direct, float inverse_paths);
+
+    // The same for one of several hit points of a pixel: adds `share` of the iteration's own estimate to `radiance`.
     void update(const Buffer<GatherQuery>& queries, const Buffer<GatherSum>& sums, const Buffer<Vec3>& direct, float inverse_paths,
-                Buffer<Vec3>& radiance);
+                float share, Buffer<Vec3>& radiance);
 
     // Adds share * L to the image, L = direct + tau / (pi r^2 N) by eq. 10 of the later paper. direct: that of the last
     // iteration, which counts where it is constant; light_paths: an iteration's.

@@ -104,6 +104,10 @@ LightSelection light_selection(const Parameters& parameters)
 {
     if (!parameters.has("light_choice")) return LightSelection::power;
     const std::string& choice = parameters.text("light_choice");
+    if (choice != "auto" && parameters.has("direct") && parameters.text("direct") == "photons")
+        parameters.refuse("light_choice", "light_choice=" + choice +
+                                              " is for next-event estimation, which direct=photons leaves out: "
+                                              "leave one of them at its default (direct=nee, light_choice=auto)");
     return choice == "tree" ? LightSelection::tree : choice == "power" ? LightSelection::power : LightSelection::automatic;
 }
 

@@ -25,7 +25,8 @@ ParameterSpec spectral_spec();
 
 PathRules path_rules(const Parameters& parameters); // of max_depth and rr_depth
 SamplerKind sampler_kind(const Parameters& parameters);
-LightSelection light_selection(const Parameters& parameters); // by power for methods that have no such parameter
+// By power for methods that have no such parameter. Refuses a choice that would do nothing: without next-event estimation.
+LightSelection light_selection(const Parameters& parameters);
 bool is_spectral(const Parameters& parameters); // false for methods that have no such parameter
 int density_kernel(const Parameters& parameters); // as DENSITY_KERNEL
 

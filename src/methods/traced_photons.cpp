@@ -5,6 +5,8 @@
 #include "methods/photon_map_file.h"
 #include "methods/standard_parameters.h"
 
+#include <algorithm>
+
 namespace sundog
 {
 
@@ -31,47 +33,79 @@ std::size_t caustic_path_count(const Parameters& parameters, std::size_t pixels)
     return photons > 0 ? static_cast<std::size_t>(photons) : 4 * light_path_count(parameters, pixels);
 }
 
-MapPhotons trace_map_photons(RenderContext& context, const Parameters& parameters)
+PhotonTracerSettings global_settings(const RenderContext& context, const Parameters& parameters)
 {
-    const std::size_t pixels = context.film.pixel_count();
-    const bool next_event = parameters.text("direct") == "nee";
-    PhotonTracerSettings settings{light_path_count(parameters, pixels), path_rules(parameters), false, sampler_kind(parameters),
-                                  PhotonsKept::scattered};
+    PhotonTracerSettings settings{light_path_count(parameters, context.film.pixel_count()), path_rules(parameters), false,
+                                  sampler_kind(parameters), PhotonsKept::scattered};
     // What is gathered is all the light that arrives.
     if (parameters.boolean("final_gather")) settings.kept = PhotonsKept::all;
-    std::uint64_t importon_rays = 0;
-    const std::unique_ptr<ImportanceMap> importance = trace_importons(context, parameters, importon_rays);
-    MapPhotons maps{trace_photons(context, settings, 0, importance.get()), {}};
-    maps.global.rays += importon_rays;
-    if (next_event && !context.scene.has_focused_light()) return maps;
-    settings.kept = PhotonsKept::caustic;
-    settings.direct_light_elsewhere = next_event;
-    settings.paths = caustic_path_count(parameters, pixels);
-    maps.caustic = trace_photons(context, settings, 1, importance.get());
-    return maps;
+    return settings;
+}
+
+PhotonTracerSettings caustic_settings(const RenderContext& context, const Parameters& parameters)
+{
+    return {caustic_path_count(parameters, context.film.pixel_count()), path_rules(parameters), parameters.text("direct") == "nee",
+            sampler_kind(parameters), PhotonsKept::caustic};
+}
+
+std::size_t batch_count(const PhotonTracerSettings& settings)
+{
+    return (settings.paths + largest_batch - 1) / largest_batch;
+}
+
+PhotonTracerSettings of_a_batch(PhotonTracerSettings settings)
+{
+    settings.paths = (settings.paths + batch_count(settings) - 1) / batch_count(settings);
+    return settings;
 }
 
 } // namespace
 
-TracedPhotons trace_photons(RenderContext& context, PhotonTracerSettings settings, uint map_number, ImportanceMap* importance)
+MapTracer::MapTracer(RenderContext& context, const PhotonTracerSettings& settings, uint map_number)
+    : context_(context), batches_(batch_count(settings)), settings_(of_a_batch(settings)), map_number_(map_number),
+      tracer_(context.device, context.scene, settings_), deposits_(context.device, settings_.paths, "photon deposits")
+{
+}
+
+TracedPhotons MapTracer::trace(PathPool& pool, std::uint64_t set, ImportanceMap* importance)
 {
     TracedPhotons traced;
-    const std::size_t batches = (settings.paths + largest_batch - 1) / largest_batch;
-    settings.paths = (settings.paths + batches - 1) / batches;
-    PathPool pool(context.device, context.scene, settings.paths);
-    PhotonTracer tracer(context.device, context.scene, settings);
-    Buffer<Photon> deposits(context.device, settings.paths, "photon deposits");
-    for (std::size_t batch = 0; batch < batches; batch++) {
-        // Batches continue the points of one sequence; above 2^32 another begins (kernels/math/sampler.h).
-        const SamplerKey key = sampler_key(context.seed, (static_cast<std::uint64_t>(map_number) << 32) + batch);
-        const std::size_t stored = tracer.trace(context.scene, pool, key, deposits);
+    const std::uint64_t rays_before = pool.rays_traced();
+    for (std::size_t batch = 0; batch < batches_; batch++) {
+        // Batches and sets continue the points of one sequence; above 2^32 another begins (kernels/math/sampler.h).
+        const SamplerKey key = sampler_key(context_.seed, (static_cast<std::uint64_t>(map_number_) << 32) + set * batches_ + batch);
+        const std::size_t stored = tracer_.trace(context_.scene, pool, key, deposits_);
         const std::vector<Photon> photons =
-            importance ? importance->thin(tracer.photons(), stored, key) : tracer.photons().records().download(0, stored);
+            importance ? importance->thin(tracer_.photons(), stored, key) : tracer_.photons().records().download(0, stored);
         traced.photons.insert(traced.photons.end(), photons.begin(), photons.end());
     }
-    traced.light_paths = batches * settings.paths;
-    traced.rays = pool.rays_traced();
+    traced.light_paths = light_paths();
+    traced.rays = pool.rays_traced() - rays_before;
     return traced;
+}
+
+MapPhotonTracer::MapPhotonTracer(RenderContext& context, const Parameters& parameters)
+    : context_(context), parameters_(parameters), global_(context, global_settings(context, parameters), 0)
+{
+    const PhotonTracerSettings settings = caustic_settings(context, parameters);
+    if (!settings.direct_light_elsewhere || context.scene.has_focused_light()) caustic_.emplace(context, settings, 1);
+    pool_.emplace(context.device, context.scene, std::max(global_.batch_size(), caustic_ ? caustic_->batch_size() : 0));
+}
+
+MapPhotons MapPhotonTracer::trace(std::uint64_t set)
+{
+    std::uint64_t importon_rays = 0;
+    const std::unique_ptr<ImportanceMap> importance = trace_importons(context_, parameters_, importon_rays);
+    MapPhotons maps{global_.trace(*pool_, set, importance.get()), {}};
+    maps.global.rays += importon_rays;
+    if (caustic_) maps.caustic = caustic_->trace(*pool_, set, importance.get());
+    return maps;
+}
+
+void MapPhotonTracer::serialize(StateArchive& archive)
+{
+    global_.serialize(archive);
+    if (caustic_) caustic_->serialize(archive);
 }
 
 MapPhotons make_map_photons(RenderContext& context, const Parameters& parameters)
@@ -79,7 +113,7 @@ MapPhotons make_map_photons(RenderContext& context, const Parameters& parameters
     const std::string &from = parameters.text("load_map"), &to = parameters.text("save_map");
     if (!to.empty()) check_file_writable(to); // before the work
     const PhotonMapOrigin origin = from.empty() && to.empty() ? PhotonMapOrigin{} : origin_of(context, parameters);
-    const MapPhotons photons = from.empty() ? trace_map_photons(context, parameters) : load_photon_maps(from, origin);
+    const MapPhotons photons = from.empty() ? MapPhotonTracer(context, parameters).trace(0) : load_photon_maps(from, origin);
     if (!to.empty()) save_photon_maps(to, origin, photons);
     return photons;
 }

@@ -4,8 +4,10 @@
 #include "math/half.h"
 #include "math/srgb.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 
 namespace sundog {
 
@@ -85,6 +87,22 @@ Vec3 linear_texel(const TexelImage& image, std::size_t index)
         return image.format == TexelFormat::srgb8 ? decoded_bytes()[byte] : static_cast<float>(byte) / 255.0f;
     };
     return {channel(0), channel(8), channel(16)};
+}
+
+void set_linear_texels(TexelImage& image, const std::vector<float>& values)
+{
+    const bool fit = std::all_of(values.begin(), values.end(), [](float value) { return std::abs(value) <= largest_half; });
+    image.format = fit ? TexelFormat::half : TexelFormat::float32;
+    image.texels.clear();
+    image.texels.reserve(values.size() / 3 * image.words_per_texel());
+    for (std::size_t i = 0; i < values.size(); i += 3) {
+        if (fit) {
+            image.texels.push_back(half_from_float(values[i]) | static_cast<uint>(half_from_float(values[i + 1])) << 16);
+            image.texels.push_back(half_from_float(values[i + 2]));
+        } else {
+            for (std::size_t c = 0; c < 3; c++) image.texels.push_back(std::bit_cast<uint>(values[i + c]));
+        }
+    }
 }
 
 Vec3 mean_color(const Scene& scene, uint texture, const TriangleMesh* mesh)

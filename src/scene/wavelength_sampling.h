@@ -22,7 +22,7 @@ double wavelength_at(double share);
 // wavelength_density, and so has any one chosen with probability 1/3. A pure function of seed and pass.
 std::array<double, wavelengths_of_a_pass> pass_wavelengths(std::uint64_t seed, std::uint64_t pass);
 
-// The matrices for given wavelengths (nm), each of which has the density above over the passes and choices of k.
+// The matrices for given wavelengths (nm), each of which has the density above over the passes and choices of k. Turns are 0.
 Wavelengths make_wavelengths(const std::array<double, wavelengths_of_a_pass>& wavelengths);
 
 } // namespace sundog

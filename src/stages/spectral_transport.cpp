@@ -13,7 +13,11 @@ SpectralTransport::SpectralTransport(Device& device, DeviceScene& scene, std::ui
 
 void SpectralTransport::begin_pass(std::uint64_t pass)
 {
-    if (kernels_) scene_.set_wavelengths(make_wavelengths(pass_wavelengths(seed_, pass)));
+    if (!kernels_) return;
+    Wavelengths wavelengths = make_wavelengths(pass_wavelengths(seed_, pass));
+    wavelengths.camera_turn = static_cast<uint>(pass % 3);
+    wavelengths.light_turn = static_cast<uint>(pass / 3 % 3);
+    scene_.set_wavelengths(wavelengths);
 }
 
 void SpectralTransport::to_rgb(Buffer<Vec3>& radiance) const

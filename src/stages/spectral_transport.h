@@ -13,6 +13,8 @@ class SpectralTransport {
 public:
     SpectralTransport(Device& device, DeviceScene& scene, std::uint64_t seed);
 
+    bool is_on() const { return kernels_.has_value(); }
+
     // Before a pass: gives the scene its wavelengths, a pure function of seed and pass.
     void begin_pass(std::uint64_t pass);
 

@@ -103,6 +103,14 @@ TEST_F(CliPhotonMapFile, OtherMapsAreRefusedOnResuming)
 TEST_F(CliPhotonMapFile, MeaninglessPairsAreRefusedByName)
 {
     expect_failure(render("scene.xml", {"load_map=m", "save_map=n"}), 2, {"cannot take both save_map and load_map"});
+    expect_failure(render("scene.xml", {"spectral=true", "save_map=m"}), 2, {"cannot take both spectral=true and save_map"});
+    expect_failure(render("scene.xml", {"spectral=true", "load_map=m"}), 2, {"cannot take both spectral=true and load_map"});
+    expect_failure(render("scene.xml", {"relaxation_progressive=true", "max_depth=-1", "save_map=m"}), 2,
+                   {"relaxation_progressive=true and save_map"});
+    expect_failure(render("scene.xml", {"relaxation_progressive=true", "max_depth=-1", "spectral=true"}), 2,
+                   {"relaxation_progressive=true and spectral"});
+    expect_failure(render("scene.xml", {"relaxation_progressive=true"}), 2,
+                   {"sums light of all depths", "max_depth=4; use -p max_depth=-1"});
     expect_failure(render("scene.xml", {"precompute=true"}), 2,
                    {"precompute=true sums light of all depths", "max_depth=4; use -p max_depth=-1"});
     expect_failure(render("scene.xml", {"precompute=true", "max_depth=-1", "final_gather=false"}), 2, {"precompute", "final_gather=false"});

@@ -73,7 +73,7 @@ TEST_F(ProgressiveStage, FollowsTheRecurrence)
         queries.upload(host_queries);
         sums.upload(host_sums);
         radiance.upload(host_radiance);
-        update_(pixels, queries, sums, radiance, static_cast<uint>(pixels), alpha, inverse_paths, device_pixels, direct_sums, radiance);
+        update_(pixels, queries, sums, radiance, static_cast<uint>(pixels), alpha, inverse_paths, 0.0f, device_pixels, direct_sums, radiance);
         if (iteration % 100 != 0) continue;
         const auto got = radiance.download();
         for (std::size_t i = 0; i < pixels; ++i)
@@ -106,7 +106,7 @@ TEST_F(ProgressiveStage, SteadyArrivalsShrinkTheRadiusInClosedForm)
     const float alpha = 2.0f / 3.0f;
     double expected = 1.0;
     for (int i = 0; i < 100; ++i) {
-        update_(1, queries, sums, radiance, 1u, alpha, 1.0f, pixels, direct_sums, radiance);
+        update_(1, queries, sums, radiance, 1u, alpha, 1.0f, 0.0f, pixels, direct_sums, radiance);
         expected *= static_cast<double>(alpha) * (i + 1) / (static_cast<double>(alpha) * i + 1.0);
     }
     EXPECT_NEAR(pixels.read(0).radius_squared / expected, 1.0, 1e-5);
@@ -128,7 +128,7 @@ TEST_F(ProgressiveStage, WhatIsNotFiniteStaysOutOfTheStatisticsButIsSeen)
     const auto sums = upload(std::vector<GatherSum>{{{NAN, 1, 1}, 2.0f}, {{1e30f, 1, 1}, 2.0f}, {{1, 1, 1}, 2.0f}});
     const auto radiance = upload(std::vector<Vec3>{{1, 1, 1}, {1, 1, 1}, {INFINITY, 1, 1}});
     const auto direct_sums = upload(std::vector<DirectSum>(3));
-    update_(3, queries, sums, radiance, 3u, 0.5f, 1.0f, pixels, direct_sums, radiance);
+    update_(3, queries, sums, radiance, 3u, 0.5f, 1.0f, 0.0f, pixels, direct_sums, radiance);
     const auto got = pixels.download();
     const auto direct = direct_sums.download();
     const auto seen = radiance.download();

@@ -3,6 +3,7 @@
 #include "stages/photon_relaxation.h"
 #include "support/device_fixture.h"
 #include "support/photon_cloud.h"
+#include "support/power_spectrum.h"
 
 #include <numbers>
 
@@ -135,6 +136,20 @@ TEST_F(RelaxPhotons, EvenLightLosesMostOfItsNoise)
     EXPECT_EQ(flux(evened), flux(photons));
 }
 
+// Blue noise: little power at frequencies below that of the photons' distance, where chance has as much as anywhere.
+TEST_F(RelaxPhotons, EvenLightBecomesBlueNoise)
+{
+    const std::vector<Photon> photons = even_light(8000), evened = relaxed(photons, 10);
+    const auto power = [&](const std::vector<Photon>& some, double low, double high) {
+        return mean_power(some, 0.8, low, high, 400, random_);
+    };
+    // A standard error by chance is 0.05, or 0.07 where many of the few frequencies are drawn twice.
+    for (const double f : {0.2, 0.5, 1.0, 2.0}) EXPECT_NEAR(power(photons, f, f + 0.15), 1.0, 0.3) << f;
+    EXPECT_LT(power(evened, 0.2, 0.35), 0.1);
+    EXPECT_LT(power(evened, 0.35, 0.65), 0.6);
+    EXPECT_NEAR(power(evened, 2.0, 2.5), 1.0, 0.2) << "at short distances it stays chance";
+}
+
 // Light that grows from left to right as 1 + x keeps its gradient. Like heat it would flow by r^2 / 12 g = 4e-4 / (1 + x)^2 a sweep,
 // 0.016 in forty where 1 + x is 1; a quarter of that would show.
 TEST_F(RelaxPhotons, GradientsStay)
@@ -193,6 +208,7 @@ TEST_F(RelaxPhotons, SurfacesAreApart)
 TEST_F(RelaxPhotons, FewPhotonsStayWhereTheyAre)
 {
     EXPECT_TRUE(relaxed({}, 3).empty());
+    EXPECT_EQ(relaxed({make_test_photon({0.5f, 0.5f, 0}, {1, 1, 1})}, 3)[0].position, (Vec3{0.5f, 0.5f, 0}));
     const std::vector<Photon> few = even_light(3);
     const auto moved = relaxed(few, 3);
     for (std::size_t i = 0; i < few.size(); i++) EXPECT_EQ(moved[i].position, few[i].position);

@@ -1,7 +1,9 @@
 // Spectral transport: the same images as RGB transport where colours multiply once; methods agree on dispersion; prisms
 // bend each colour by Snell's law; the same bits again, and after a resumption.
+#include "scene/flat_scene.h"
 #include "scene/wavelength_sampling.h"
-#include "stages/device_scene.h"
+#include "stages/final_gather.h"
+#include "stages/spectral_transport.h"
 #include "support/cornell_scene.h"
 #include "support/render_replicates.h"
 #include "support/scene_builder.h"
@@ -23,6 +25,7 @@ RenderRequest request(const std::string& method, std::uint64_t iterations, bool 
 {
     RenderRequest r{method, iterations, {{"sampler", "independent"}, {"max_depth", "6"}, {"spectral", spectral ? "true" : "false"}}};
     if (method != "path") r.parameters["photons"] = "4096";
+    if (method == "photonmapper") r.parameters.insert_or_assign("photons", "1024");
     if (method != "path" && method != "ptracer") r.parameters["radius"] = "0.02";
     for (const auto& [name, value] : more) r.parameters[name] = value;
     return r;
@@ -37,10 +40,10 @@ double channel_mean(const Image& image, int channel)
 }
 
 // Means of red, green and blue over the image.
-std::vector<Estimate> channel_estimates(const Scene& scene, const RenderRequest& r)
+std::vector<Estimate> channel_estimates(const Scene& scene, const RenderRequest& r, int seeds = replicates)
 {
     std::vector<std::vector<double>> values(3);
-    for (int seed = 1; seed <= replicates; seed++) {
+    for (int seed = 1; seed <= seeds; seed++) {
         const Image image = render(scene, r, static_cast<std::uint64_t>(seed));
         for (int c = 0; c < 3; c++) values[static_cast<std::size_t>(c)].push_back(channel_mean(image, c));
     }
@@ -75,8 +78,10 @@ TEST_P(SpectralMethods, OneBounceIsThatOfRgb)
 {
     const Scene scene = cornell_box(16);
     const std::map<std::string, std::string> once{{"max_depth", "2"}, {"rr_depth", "9"}};
-    expect_same_means({channel_estimates(scene, request(GetParam(), 24, false, once)), channel_estimates(scene, request(GetParam(), 24, true, once))},
-                      {"rgb", "spectral"}, 0.0);
+    // ppm sees four points of a pixel, whatever its passes.
+    expect_same_means(
+        {channel_estimates(scene, request(GetParam(), 24, false, once)), channel_estimates(scene, request(GetParam(), 24, true, once))},
+        {"rgb", "spectral"}, 0.0, GetParam() == "ppm" ? 0.1 : 0.05);
 }
 
 // Grey multiplies alike in both, however often, so that white light stays white.
@@ -87,7 +92,7 @@ TEST_P(SpectralMethods, GreyBoxIsThatOfRgbAndWhite)
     const auto spectral = channel_estimates(scene, request(GetParam(), 24, true));
     expect_same_means({channel_estimates(scene, request(GetParam(), 24, false)), spectral}, {"rgb", "spectral"}, 0.0);
     // The tint of the passes' wavelengths, which all pixels share, falls with their number: 24 passes leave about 2%.
-    const auto white = channel_estimates(scene, request(GetParam(), 96, true));
+    const auto white = channel_estimates(scene, request(GetParam(), 96, true), 3);
     for (const Estimate& channel : white) EXPECT_NEAR(channel.mean, white[1].mean, 0.02 * white[1].mean);
 }
 
@@ -182,7 +187,43 @@ TEST_P(SpectralMethods, ResumedIsUninterrupted)
     EXPECT_TRUE(resumed.image().pixels == whole.image().pixels);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, SpectralMethods, testing::Values("path", "ptracer", "pppm", "sppm", "cppm", "appm"), [](const auto& method) { return method.param; });
+INSTANTIATE_TEST_SUITE_P(Methods, SpectralMethods,
+                         testing::Values("path", "ptracer", "pppm", "sppm", "cppm", "appm", "ppm", "photonmapper"),
+                         [](const auto& method) { return method.param; });
+
+// A gather ray that glass has bent asks with its hero alone, three times as strong.
+TEST(Spectral, GatherRaysDisperse)
+{
+    Device& device = shared_device();
+    const Scene description = dispersive_box(64);
+    DeviceScene scene(device, description, true);
+    SpectralTransport(device, scene, 3).begin_pass(0);
+    const Camera camera = make_camera(description.sensor, description.film);
+    CameraPaths paths(device, camera, make_pixel_filter(description.film.filter), SamplerKind::independent, scene.surface_options());
+    PathPool pool(device, scene, paths.count());
+    const PathRules rules{UNBOUNDED_DEPTH, 100};
+    QueryTracer visible(device, scene, paths.count(), rules, false, SamplerKind::independent);
+    FinalGather gather(device, scene, paths.count(), rules, SamplerKind::independent);
+    const SamplerKey key = sampler_key(3, 0);
+    paths.start(scene, pool, key);
+    visible.trace(scene, paths, pool, key, 0.02f);
+    gather.trace(scene, paths, visible, pool, key, 0.02f);
+    const auto wavelengths = [](const GatherQuery& query) {
+        int count = 0;
+        for (int c = 0; c < 3; c++) count += component(query.throughput, c) > 0.0f;
+        return query.radius > 0.0f ? count : 0;
+    };
+    const auto seen = visible.queries.download(), asked = gather.queries.download();
+    int dispersed = 0, whole = 0;
+    for (std::size_t i = 0; i < seen.size(); i++) {
+        if (wavelengths(seen[i]) != 3) continue;
+        dispersed += wavelengths(asked[i]) == 1;
+        whole += wavelengths(asked[i]) == 3;
+    }
+    // The balls fill about a tenth of what the walls see.
+    EXPECT_GT(dispersed, 100);
+    EXPECT_GT(whole, 1000);
+}
 
 // Light tracing cannot see what is behind glass, so the three others are compared. The bias is that of the edges, as in
 // agreement_test.cpp: 2 r 0.21 = 0.8% for r = 0.02.
@@ -194,45 +235,137 @@ TEST(Spectral, MethodsAgreeOnDispersiveGlass)
                       {"path", "pppm", "sppm"}, 0.01);
 }
 
-// A lamp at 3 m from a prism of flint glass throws its spectrum on a screen as far beyond. Unlike a projector's, its light
-// can be found from the camera as well. Directions are angles from +x in the plane z = 0; light enters along +x at the
-// angle of least deviation for the sodium line, and leaves at -41.2 degrees.
-Scene rainbow()
+// Each pass of a render: what it brought to the mean, by pixel and channel.
+std::vector<Image> passes_of(const Scene& scene, const RenderRequest& r)
 {
-    const SellmeierFormula flint = find_dispersion("sf11").value();
-    const double n = index_at(flint, sodium_d_line), apex = M_PI / 4.0, incidence = std::asin(n * std::sin(0.5 * apex));
-    const double deviation = 2.0 * incidence - apex;
-    const auto along = [](double angle, double length) { return Vec3{static_cast<float>(length * std::cos(angle)), static_cast<float>(length * std::sin(angle)), 0}; };
-    const Vec3 z{0, 0, 1};
+    RenderSettings settings{r.method, r.parameters, 5, {}, {}};
+    RenderSession session(scene, shared_device(), settings);
+    std::vector<Image> passes;
+    std::vector<float> sum;
+    for (std::uint64_t i = 0; i < r.iterations; i++) {
+        session.iterate();
+        Image image = session.image();
+        sum.resize(image.pixels.size());
+        for (std::size_t k = 0; k < sum.size(); k++) {
+            image.pixels[k] = image.pixels[k] * static_cast<float>(i + 1) - sum[k];
+            sum[k] += image.pixels[k];
+        }
+        passes.push_back(std::move(image));
+    }
+    return passes;
+}
 
-    SceneBuilder builder;
-    const uint white = builder.bsdf(DiffuseBsdf{{0.8f, 0.8f, 0.8f}}), black = builder.bsdf(DiffuseBsdf{{0, 0, 0}});
-    DielectricBsdf glass{static_cast<float>(n), 1.0f, false, {1, 1, 1}, {1, 1, 1}};
-    glass.dispersion = flint;
-    // Faces of 0.15 m from the apex; the middle of the first is at the origin.
-    const Vec3 down_entry = along(M_PI - incidence + M_PI / 2.0, 0.15), down_exit = along(M_PI - incidence + M_PI / 2.0 + apex, 0.15);
-    const Vec3 top = down_entry * -0.5f - z * 0.5f, entry = top + down_entry, exit = top + down_exit, length = z * 1.0f;
-    builder.shape(TriangleMesh{.positions = {top, entry, exit, top + length, entry + length, exit + length},
-                               .normals = {},
-                               .uvs = {},
-                               .triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}},
-                               .attributes = {}},
-                  builder.bsdf(glass));
-    const Vec3 outwards = along(-deviation, 1.0), across = along(M_PI / 2.0 - deviation, 1.0);
-    builder.shape(parallelogram(outwards * 3.0f - across - z, z * 2.0f, across * 2.0f), white);
-    builder.shape(parallelogram({0, -3, -2}, z * 4.0f, {0, 2.85f, 0}), black); // keeps the lamp itself from the screen
-    builder.light(parallelogram({-3, -0.2f, -0.8f}, {0, 0.4f, 0}, {0, 0, 1.6f}), {50, 50, 50});
+// Where all is grey and nothing disperses, a pass at some wavelengths is one in RGB but for a tint: the same photons, in
+// every pass the same ones.
+TEST(Spectral, PhotonMapsKeepTheirPhotons)
+{
+    Scene scene = cornell_box(16);
+    for (auto& bsdf : scene.bsdfs) bsdf.model = DiffuseBsdf{{0.7f, 0.7f, 0.7f}};
+    const std::map<std::string, std::string> looked_up{
+        {"final_gather", "false"}, {"direct", "photons"}, {"radius", "0.1"}, {"photons", "2000"}};
+    const auto grey = passes_of(scene, request("photonmapper", 4, false, looked_up)),
+               tinted = passes_of(scene, request("photonmapper", 4, true, looked_up));
+    for (std::size_t pass = 0; pass < grey.size(); pass++) {
+        for (int c = 0; c < 3; c++) {
+            const double tint = channel_mean(tinted[pass], c) / channel_mean(grey[pass], c);
+            double differing = 0.0;
+            for (int y = 0; y < 16; y++)
+                for (int x = 0; x < 16; x++) {
+                    const double a = static_cast<double>(tinted[pass].at(x, y, c)), b = tint * static_cast<double>(grey[pass].at(x, y, c));
+                    differing += std::abs(a - b) > 1e-3 * std::abs(b) + 1e-3 * std::abs(tint);
+                }
+            // Roulette by a probability that differs by rounding may end one path in a million elsewhere.
+            EXPECT_LE(differing, 2.0) << "of 256 pixels, in pass " << pass << ", channel " << c;
+        }
+    }
+}
 
-    Scene scene = builder.scene;
-    scene.file = "rainbow";
-    scene.sensor.position = outwards * 1.5f;
-    scene.sensor.axis_x = across; // to the left: red
-    scene.sensor.axis_y = z;
-    scene.sensor.axis_z = outwards;
-    scene.sensor.fov_x = 2.0f * std::atan(0.45f / 1.5f);
+// A pixel on the edge of the lamp sees the lamp in all passes, or in none.
+TEST(Spectral, HitPointsStayWhereNothingDisperses)
+{
+    const Scene scene = cornell_box(32);
+    const auto passes = passes_of(scene, request("ppm", 5, true, {{"max_depth", "1"}, {"hit_points", "1"}, {"photons", "16"}}));
+    int lit = 0, edge = 0;
+    const auto sees = [&](std::size_t pass, int x, int y) { return passes[pass].at(x, y, 1) > 0.0f; };
+    for (int y = 0; y < 32; y++) {
+        for (int x = 0; x < 32; x++) {
+            for (std::size_t pass = 1; pass < passes.size(); pass++)
+                ASSERT_EQ(sees(pass, x, y), sees(0, x, y)) << x << ", " << y << " in pass " << pass;
+            lit += sees(0, x, y);
+            if (x > 0) edge += sees(0, x, y) != sees(0, x - 1, y);
+        }
+    }
+    EXPECT_GT(lit, 10);
+    EXPECT_GT(edge, 4);
+}
+
+// A prism of flint glass with its apex up, whose faces are 0.15 m high and 1 m long. Directions are angles from +x in the plane z = 0;
+// light enters along +x at the middle of the first face, the origin, at the angle of least deviation for the sodium line, and leaves at
+// -41.2 degrees.
+struct FlintPrism {
+    SellmeierFormula flint = find_dispersion("sf11").value();
+    double n = index_at(flint, sodium_d_line), apex = M_PI / 4.0, incidence = std::asin(n * std::sin(0.5 * apex));
+    double deviation = 2.0 * incidence - apex;
+    Vec3 outwards = along(-deviation, 1.0), across = along(M_PI / 2.0 - deviation, 1.0);
+
+    static Vec3 along(double angle, double length)
+    {
+        return {static_cast<float>(length * std::cos(angle)), static_cast<float>(length * std::sin(angle)), 0};
+    }
+
+    void add_to(SceneBuilder& builder) const
+    {
+        DielectricBsdf glass{static_cast<float>(n), 1.0f, false, {1, 1, 1}, {1, 1, 1}};
+        glass.dispersion = flint;
+        const Vec3 down_entry = along(M_PI - incidence + M_PI / 2.0, 0.15), down_exit = along(M_PI - incidence + M_PI / 2.0 + apex, 0.15);
+        const Vec3 top = down_entry * -0.5f - Vec3{0, 0, 0.5f}, entry = top + down_entry, exit = top + down_exit, length{0, 0, 1};
+        builder.shape(TriangleMesh{.positions = {top, entry, exit, top + length, entry + length, exit + length},
+                                   .normals = {},
+                                   .uvs = {},
+                                   .triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}},
+                                   .attributes = {}},
+                      builder.bsdf(glass));
+    }
+};
+
+// 12 x 12 pixels; `left` is the image's left.
+Scene seen_from(Scene scene, Vec3 position, Vec3 direction, Vec3 left, double half_angle)
+{
+    scene.file = "prism";
+    scene.sensor.position = position;
+    scene.sensor.axis_x = left;
+    scene.sensor.axis_y = {0, 0, 1};
+    scene.sensor.axis_z = direction;
+    scene.sensor.fov_x = static_cast<float>(2.0 * half_angle);
     scene.film.width = scene.film.height = scene.film.crop_width = scene.film.crop_height = 12;
     scene.film.filter = {FilterKind::box, 0.5f, 0.5f, 0, 0};
     return scene;
+}
+
+// A lamp at 3 m from the prism throws its spectrum on a screen as far beyond. Unlike a projector's, its light can be found
+// from the camera as well.
+Scene rainbow()
+{
+    const FlintPrism prism;
+    const Vec3 z{0, 0, 1};
+    SceneBuilder builder;
+    const uint white = builder.bsdf(DiffuseBsdf{{0.8f, 0.8f, 0.8f}}), black = builder.bsdf(DiffuseBsdf{{0, 0, 0}});
+    prism.add_to(builder);
+    builder.shape(parallelogram(prism.outwards * 3.0f - prism.across - z, z * 2.0f, prism.across * 2.0f), white);
+    builder.shape(parallelogram({0, -3, -2}, z * 4.0f, {0, 2.85f, 0}), black); // keeps the lamp itself from the screen
+    builder.light(parallelogram({-3, -0.2f, -0.8f}, {0, 0.4f, 0}, {0, 0, 1.6f}), {50, 50, 50});
+    return seen_from(builder.scene, prism.outwards * 1.5f, prism.outwards, prism.across, std::atan(0.45 / 1.5)); // to the left: red
+}
+
+// A narrow lamp, 3 m beyond the prism, seen through it from 3 m before it: each colour elsewhere.
+Scene lamp_behind_prism()
+{
+    const FlintPrism prism;
+    SceneBuilder builder;
+    prism.add_to(builder);
+    const Vec3 across = prism.across, z{0, 0, 1};
+    builder.light(parallelogram(prism.outwards * 3.0f - across * 0.03f - z, z * 2.0f, across * 0.06f), {1, 1, 1});
+    return seen_from(builder.scene, {-3, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.02);
 }
 
 // Of red, green and blue: the mean over the image, and that of the radiance times its distance from the image's left.
@@ -254,13 +387,44 @@ std::vector<Estimate> moments_across(const Scene& scene, const RenderRequest& r)
     return estimates;
 }
 
+// All that these hit points show comes by way of the prism, and is not from photons.
+TEST(Spectral, HitPointsBehindAPrismShowEachColourElsewhere)
+{
+    const Scene scene = lamp_behind_prism();
+    std::vector<std::vector<Estimate>> all;
+    for (const char* method : {"path", "ppm"}) {
+        all.push_back(moments_across(scene, request(method, 48, true,
+                                                    method == std::string("ppm") ? std::map<std::string, std::string>{{"photons", "16"}}
+                                                                                 : std::map<std::string, std::string>{})));
+        const auto& m = all.back();
+        const double red = m[3].mean / m[0].mean, green = m[4].mean / m[1].mean, blue = m[5].mean / m[2].mean;
+        EXPECT_GT(std::abs(red - blue), 0.05) << method;
+        EXPECT_LT((green - red) * (green - blue), 0.0) << method;
+    }
+    expect_same_means(all, {"path", "ppm"}, 0.0, 0.1);
+}
+
+// Not always the same third of the spectrum: then two pixels in three would be without green.
+TEST(Spectral, EveryHitPointBehindAPrismSeesAllColours)
+{
+    const Image image = render(lamp_behind_prism(), request("ppm", 48, true, {{"photons", "16"}, {"hit_points", "1"}}), 3);
+    double least_spread = 10.0; // of green along a column, relative to its mean
+    for (int x = 0; x < image.width; x++) {
+        std::vector<double> column;
+        for (int y = 0; y < image.height; y++) column.push_back(static_cast<double>(image.at(x, y, 1)));
+        const Estimate green = estimate_from(column);
+        if (green.mean > 0.05) least_spread = std::min(least_spread, green.standard_error * std::sqrt(image.height) / green.mean);
+    }
+    EXPECT_LT(least_spread, 0.6);
+}
+
 // The same colours in the same places, from the lamp and from the camera. Blur by 0.03 of the image's width leaves both
 // moments: the spectrum ends well within the image.
 TEST(LongSpectral, EveryMethodThrowsTheSameRainbow)
 {
     const Scene scene = rainbow();
     std::vector<std::vector<Estimate>> all;
-    const std::vector<std::string> methods{"path", "ptracer", "pppm", "sppm", "appm", "cppm"};
+    const std::vector<std::string> methods{"path", "ptracer", "pppm", "sppm", "appm", "cppm", "ppm", "photonmapper"};
     for (const std::string& method : methods) {
         all.push_back(moments_across(scene, method == "path" ? request(method, 512, true) : request(method, 64, true, {{"photons", "65536"}})));
         const auto& m = all.back();

@@ -228,6 +228,37 @@ TEST(SceneWriter, Bitmaps)
     EXPECT_THAT(xml, ::testing::Not(::testing::HasSubstr("image-4"))) << "an image that several textures share is written once";
 }
 
+std::string pfm_of(int width, int height, const std::vector<float>& values)
+{
+    std::string file = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
+    for (const float value : values) file.append(reinterpret_cast<const char*>(&value), sizeof value);
+    return file;
+}
+
+// Floats hold what is beyond a half float; the means of four texels may be within.
+TEST(SceneWriter, BitmapsThatWereScaledDown)
+{
+    const SceneFolder folder;
+    std::vector<float> bright, huge;
+    for (int i = 0; i < 12; i++) {
+        bright.push_back(i < 3 ? 100000.0f : 0.3f * static_cast<float>(i));
+        huge.push_back(3e38f); // which four times is beyond a float
+    }
+    folder.write("bright.pfm", pfm_of(2, 2, bright));
+    folder.write("huge.pfm", pfm_of(2, 2, huge));
+    std::string all;
+    for (const char* file : {"bright.pfm", "huge.pfm"})
+        all += with_material(R"(<bsdf type="diffuse"><texture type="bitmap" name="reflectance"><string name="filename" value=")" +
+                             std::string(file) + "\"/></texture></bsdf>");
+    LoadOptions options;
+    options.texture_bytes = 1;
+    const Scene scene = folder.load(sundog::testing::scene_with(all), options).scene;
+    const auto format = [&](std::size_t texture) { return std::get<BitmapTexture>(scene.textures.at(texture).model).image->format; };
+    EXPECT_EQ(format(0), TexelFormat::half);
+    EXPECT_EQ(format(1), TexelFormat::float32);
+    expect_same_after_writing(scene);
+}
+
 TEST(SceneWriter, EnvironmentMaps)
 {
     const SceneFolder folder;
