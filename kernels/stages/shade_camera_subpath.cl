@@ -93,7 +93,7 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SamplerKey
     Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
     const uint4 words = next_words(&sampler);
     Scattering scattering = scattering_at(&scene, &surface, unit_float(words.w));
-    disperse(camera_hero(key, index), &path, &scattering);
+    disperse(camera_hero(&scene, key, index), &path, &scattering);
     uint flag = PATH_ENDED;
     if (can_be_joined(&scattering)) {
         vertices[index] = make_vertex(&surface, &scattering, throughput, path.depth, weights);

@@ -58,7 +58,7 @@ __kernel void shade_light_subpath(SURFACE_PARAMETERS, Camera camera, __global co
     Sampler sampler = light_sampler(key, index, path_count, path.depth);
     const float4 u = next_4d(&sampler);
     Scattering scattering = scattering_at(&scene, &surface, next_4d(&sampler).x);
-    disperse(light_hero(key, index), &path, &scattering);
+    disperse(light_hero(&scene, key, index), &path, &scattering);
     uint flag = PATH_ENDED;
     if (techniques.merge > 0.0f && wants_photons(&scene, &surface, false)) {
         const MergeWeights brought = {subpath.weights.vcm, subpath.weights.vm};
