@@ -26,7 +26,7 @@ RenderRequest request(const std::string& method, std::uint64_t iterations, bool 
     RenderRequest r{method, iterations, {{"sampler", "independent"}, {"max_depth", "6"}, {"spectral", spectral ? "true" : "false"}}};
     if (method != "path") r.parameters["photons"] = "4096";
     if (method == "photonmapper") r.parameters.insert_or_assign("photons", "1024");
-    if (method != "path" && method != "ptracer") r.parameters["radius"] = "0.02";
+    if (method != "path" && method != "ptracer" && method != "bdpt") r.parameters["radius"] = "0.02";
     for (const auto& [name, value] : more) r.parameters[name] = value;
     return r;
 }
@@ -225,14 +225,15 @@ TEST(Spectral, GatherRaysDisperse)
     EXPECT_GT(whole, 1000);
 }
 
-// Light tracing cannot see what is behind glass, so the three others are compared. The bias is that of the edges, as in
+// Light tracing cannot see what is behind glass, so the others are compared. The bias is that of the edges, as in
 // agreement_test.cpp: 2 r 0.21 = 0.8% for r = 0.02.
 TEST(Spectral, MethodsAgreeOnDispersiveGlass)
 {
     const Scene scene = dispersive_box(16);
     expect_same_means({channel_estimates(scene, request("path", 192, true)), channel_estimates(scene, request("pppm", 48, true)),
-                       channel_estimates(scene, request("sppm", 48, true))},
-                      {"path", "pppm", "sppm"}, 0.01);
+                       channel_estimates(scene, request("sppm", 48, true)), channel_estimates(scene, request("bdpt", 96, true, {{"photons", "1024"}})),
+                       channel_estimates(scene, request("vcm", 96, true, {{"photons", "1024"}}))},
+                      {"path", "pppm", "sppm", "bdpt", "vcm"}, 0.01);
 }
 
 // Each pass of a render: what it brought to the mean, by pixel and channel.
@@ -424,7 +425,7 @@ TEST(LongSpectral, EveryMethodThrowsTheSameRainbow)
 {
     const Scene scene = rainbow();
     std::vector<std::vector<Estimate>> all;
-    const std::vector<std::string> methods{"path", "ptracer", "pppm", "sppm", "appm", "cppm", "ppm", "photonmapper"};
+    const std::vector<std::string> methods{"path", "ptracer", "pppm", "sppm", "appm", "cppm", "ppm", "photonmapper", "bdpt", "vcm", "bpm"};
     for (const std::string& method : methods) {
         all.push_back(moments_across(scene, method == "path" ? request(method, 512, true) : request(method, 64, true, {{"photons", "65536"}})));
         const auto& m = all.back();
