@@ -235,7 +235,7 @@ TEST_F(ErrorStage, MethodsThatCannotAreRefusedByName)
         FAIL() << "accepted";
     } catch (const UsageError& error) {
         EXPECT_THAT(error.what(),
-                    testing::HasSubstr("blind cannot estimate its error; choose one of appm, cppm, path, ppm, pppm, ptracer, sppm"));
+                    testing::HasSubstr("blind cannot estimate its error; choose one of appm, bdpt, cppm, path, ppm, pppm, ptracer, sppm"));
     }
 }
 

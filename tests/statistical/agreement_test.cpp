@@ -147,7 +147,7 @@ TEST(Agreement, MovingCausticsAndCamera)
         between(Transform::translate({-.6, -.6, -.6}), Transform::translate({-.6, -.4, -.6}) * Transform::rotate({1, 2, 0}, 150));
     add_moving(scene, make_quad({-.2f, 0, 0}, {.2f, 0, 0}, {.2f, .3f, 0}, {-.2f, .3f, 0}, 1),
                between(Transform::translate({-.2, -.9, .1}), Transform::translate({.2, -.8, .1}) * Transform::rotate({0, 1, 0}, 60)));
-    expect_agreement(scene, {request("path", 96), request("ptracer", 12), request("pppm", 12), request("sppm", 12), request("bdpt", 24), request("vcm", 24)}, edge_bias);
+    expect_agreement(scene, {request("path", 96), request("ptracer", 12), request("pppm", 12), request("sppm", 12), request("vcm", 24)}, edge_bias);
 }
 
 // Broad reflections are asked for photons; narrow ones are followed, and asked only for what no followed path finds.
@@ -249,7 +249,7 @@ TEST(Agreement, Principled)
     scene.shapes.push_back(make_sphere({.5f, -.65f, .3f}, .33f, add_bsdf(scene, cloth)));
     scene.shapes.push_back(make_sphere({-.4f, .2f, -.3f}, .33f, add_bsdf(scene, metal)));
     scene.shapes.push_back(make_sphere({-.3f, -.6f, .2f}, .38f, add_bsdf(scene, glass)));
-    expect_agreement(scene, {request("path", 96), request("ptracer", 16), request("pppm", 16), request("photonmapper", 16), request("bdpt", 32), request("vcm", 32)}, edge_bias);
+    expect_agreement(scene, {request("path", 96), request("ptracer", 16), request("pppm", 16), request("photonmapper", 16), request("vcm", 32)}, edge_bias);
 }
 
 // A lobe that is asked for photons, and one that is followed.
@@ -260,7 +260,7 @@ TEST(Agreement, Phong)
     const uint narrow = add_bsdf(scene, PhongBsdf{{.1f, .2f, .3f}, {.5f, .6f, .7f}, 60.0f});
     scene.shapes.push_back(make_sphere({.45f, -.6f, .3f}, .4f, broad));
     scene.shapes.push_back(make_sphere({-.45f, -.6f, -.3f}, .4f, narrow));
-    expect_agreement(scene, {request("path", 96), request("ptracer", 16), request("pppm", 16), request("bdpt", 32), request("vcm", 32)}, edge_bias);
+    expect_agreement(scene, {request("path", 96), request("ptracer", 16), request("pppm", 16), request("vcm", 32)}, edge_bias);
 }
 
 // An 8 x 8 bitmap that is different in each texel, and the relief that it makes of a wall with texture coordinates.
@@ -292,7 +292,7 @@ TEST(Agreement, Relief)
         std::get<TriangleMesh>(panel.geometry).uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         scene.shapes.push_back(panel);
     }
-    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("bdpt", 64), request("vcm", 64)}, edge_bias);
+    expect_agreement(scene, {request("path", 256), request("ptracer", 48), request("pppm", 48), request("vcm", 64)}, edge_bias);
 }
 
 TEST(Agreement, ThinPaneAndDisk)
@@ -306,7 +306,7 @@ TEST(Agreement, ThinPaneAndDisk)
     disk.geometry = Disk{{0, -.4f, 0}, {.5f, 0, 0}, {0, 0, .5f}};
     disk.bsdf = both_sides;
     scene.shapes.push_back(disk);
-    expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24), request("bdpt", 64), request("vcm", 48)}, edge_bias);
+    expect_agreement(scene, {request("path", 256), request("pppm", 24), request("sppm", 24), request("vcm", 48)}, edge_bias);
 }
 
 TEST(Agreement, EveryEmitter)
