@@ -1,7 +1,9 @@
 // Where light subpaths start.
 #ifndef SUNDOG_SCENE_EMISSION_H
 #define SUNDOG_SCENE_EMISSION_H
+#include "math/sampler.h"
 #include "scene/lights.h"
+#include "shared/path.h"
 
 typedef struct EmissionSample {
     Ray ray;
@@ -114,6 +116,18 @@ static inline EmissionSample sample_emission(const SurfaceView* scene, uint4 wor
     }
     }
     return sample;
+}
+
+// Starts light path `path` of `count`: its first ray, and its state with flux as throughput.
+static inline EmissionSample emit_light_path(const SurfaceView* scene, SamplerKey key, uint path, uint count, PathState* state)
+{
+    Sampler sampler = light_sampler(key, path, count, 0u);
+    const uint4 words = next_words(&sampler);
+    const float4 u_direction = next_4d(&sampler);
+    const EmissionSample emission = sample_emission(scene, words, u_direction.xy);
+    const PathState first = {pack(emission.flux), PDF_DELTA, 1u, 0u, 1.0f, emission.path_flags};
+    *state = first;
+    return emission;
 }
 
 #endif

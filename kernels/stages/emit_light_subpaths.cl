@@ -1,7 +1,6 @@
 // Starts light subpaths that are to be joined to camera subpaths. Reads the lights; writes rays, paths (with flux as
 // throughput), what they carry for their weights, the list of active paths, and that none has a vertex yet. One work-item a
 // path. Used by the bidirectional methods.
-#include "math/sampler.h"
 #include "scene/emission.h"
 #include "shared/bidirectional.h"
 
@@ -24,12 +23,9 @@ __kernel void emit_light_subpaths(SURFACE_PARAMETERS, SamplerKey key, Techniques
     if (path >= count) return;
 
     const SurfaceView scene = SURFACE_VIEW;
-    Sampler sampler = light_sampler(key, path, count, 0u);
-    const uint4 words = next_words(&sampler);
-    const float4 u_direction = next_4d(&sampler);
-    const EmissionSample emission = sample_emission(&scene, words, u_direction.xy);
+    PathState state;
+    const EmissionSample emission = emit_light_path(&scene, key, path, count, &state);
     rays[path] = emission.ray;
-    const PathState state = {pack(emission.flux), PDF_DELTA, 1u, 0u, 1.0f, emission.path_flags};
     paths[path] = state;
     const Subpath subpath = {weights_at_light(&emission, techniques), emission.light};
     subpaths[path] = subpath;

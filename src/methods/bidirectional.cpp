@@ -18,12 +18,20 @@ namespace
 // Where connections find what merging would only blur, photons are wanted for light that nothing else finds: fewer will do.
 constexpr double pixels_beside_connections = 2.0;
 
+bool resamples(const Parameters& parameters)
+{
+    return parameters.text("connections") == "resampled";
+}
+
+void refuse_picks_without_resampling(const Parameters& parameters)
+{
+    if (parameters.has("picks") && parameters.is_set("picks") && !resamples(parameters))
+        parameters.refuse("picks", "picks is for light vertices that are resampled; use -p connections=resampled");
+}
+
 std::unique_ptr<ConnectionList> connection_list(Device& device, const Parameters& parameters, std::size_t paths)
 {
-    const bool resampled = parameters.text("connections") == "resampled";
-    if (!resampled && parameters.is_set("picks"))
-        parameters.refuse("picks", "picks is for light vertices that are resampled; use -p connections=resampled");
-    return resampled ? make_resampled_connections(device, paths, static_cast<uint>(parameters.integer("picks")))
+    return resamples(parameters) ? make_resampled_connections(device, paths, static_cast<uint>(parameters.integer("picks")))
                      : make_own_connections(device, paths);
 }
 
@@ -112,6 +120,7 @@ private:
 
 std::unique_ptr<Method> make_bidirectional(RenderContext& context, const Parameters& parameters, JoinedBy joined_by)
 {
+    refuse_picks_without_resampling(parameters);
     return std::make_unique<Bidirectional>(context, parameters, joined_by);
 }
 
