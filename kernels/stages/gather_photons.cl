@@ -3,6 +3,7 @@
 // sums (zero where there is no query). One work-item a query; eight photons at a time. The estimator
 // (kernels/estimators) is the program's prelude. -D WIDE_QUERIES=1: radii may exceed the one that the grid was built for,
 // which is dense. Used by the photon mapping methods.
+#include "density/flux8.h"
 #include "density/photon_grid.h"
 #include "density/wanted_photons.h"
 #include "math/simd8.h"
@@ -11,10 +12,6 @@
 #if GATHERS_LOBES
 #include "scene/bsdf.h"
 #endif
-
-typedef struct Flux8 {
-    float8 red, green, blue;
-} Flux8;
 
 #if GATHERS_LOBES
 // Flux times f of the photons in the mask, one after another; zero for the others.

@@ -2,6 +2,7 @@
 // ways to make the path. Reads flags, vertices, cell ends, photon streams and what the photons bring for their weights (two
 // streams); updates radiance. One work-item an active path; eight photons at a time. -D DENSITY_KERNEL; the weights are those
 // of the uniform one. Used by the bidirectional methods.
+#include "density/flux8.h"
 #include "density/kernels.h"
 #include "density/photon_grid.h"
 #include "density/wanted_photons.h"
@@ -29,11 +30,6 @@ static inline MergingVertex merging_vertex(__global const PathVertex* vertex, Pa
     merging.query.flags = is_transmissive(&merging.scattering) ? QUERY_BOTH_SIDES : 0u;
     return merging;
 }
-
-// Flux (W) or what becomes of it.
-typedef struct Flux8 {
-    float8 red, green, blue;
-} Flux8;
 
 typedef struct Photons8 {
     Flux8 flux;
