@@ -19,16 +19,18 @@ static inline void scatter_path(PathState* path, const BsdfSample* sample, float
 // lost to all but transmissive ones.
 static inline uint lobe_horizon(const Scattering* scattering) { return LIGHT_TREE ? pack_horizon(scattering->normal, is_transmissive(scattering)) : 0u; }
 
-// Extends a camera path; writes its next ray. False: the path ends here. Survival by throughput, without
-// the radiance scale of refraction, which is undone when the path leaves the glass again.
-static inline bool continue_camera_path(const Surface* surface, const Scattering* scattering, PathRules rules, Sampler* sampler, PathState* path, Ray* ray)
+// With which a camera path of this throughput goes on in Russian roulette: by throughput without the radiance scale of
+// refraction, which is undone when the path leaves the glass again.
+static inline float camera_survival(float3 throughput, float eta_scale) { return fmin(max3(fabs(throughput)) * eta_scale, 0.95f); }
+
+// Extends a camera path by given random numbers; writes its next ray. False: the path ends here.
+static inline bool extend_camera_path(const Surface* surface, const Scattering* scattering, PathRules rules, float4 u, PathState* path, Ray* ray)
 {
-    const float4 u = next_4d(sampler);
     BsdfSample sample;
     if (!bsdf_sample(scattering, surface, u, CARRIES_RADIANCE, &sample)) return false;
     float3 throughput = unpack(path->throughput) * sample.weight;
     if (path->depth >= rules.rr_depth) {
-        const float survival = fmin(max3(fabs(throughput)) * path->eta_scale * sample.eta_scale, 0.95f);
+        const float survival = camera_survival(throughput, path->eta_scale * sample.eta_scale);
         if (!(u.w < survival)) return false;
         throughput /= survival;
     }
@@ -38,6 +40,11 @@ static inline bool continue_camera_path(const Surface* surface, const Scattering
     *ray = ray_from(surface, sample.direction);
     ray->horizon = lobe_horizon(scattering);
     return true;
+}
+
+static inline bool continue_camera_path(const Surface* surface, const Scattering* scattering, PathRules rules, Sampler* sampler, PathState* path, Ray* ray)
+{
+    return extend_camera_path(surface, scattering, rules, next_4d(sampler), path, ray);
 }
 
 // Extends a light path. Survival by albedo, so that photons keep equal flux.

@@ -5,7 +5,7 @@
 #include "scene/path_weights.h"
 
 static inline PathVertex make_vertex(const Surface* surface, const Scattering* scattering, float3 throughput, uint depth,
-                                     PathWeights weights)
+                                     PathWeights weights, float merge, float eta_scale)
 {
     PathVertex vertex;
     vertex.position = pack(surface->position);
@@ -13,6 +13,8 @@ static inline PathVertex make_vertex(const Surface* surface, const Scattering* s
     vertex.throughput = pack(throughput);
     vertex.depth = depth;
     vertex.weights = weights;
+    vertex.merge = merge;
+    vertex.eta_scale = eta_scale;
     vertex.lobe = pack_lobe(scattering, surface);
     return vertex;
 }

@@ -14,6 +14,7 @@ static inline PathWeights bounded(PathWeights weights)
     weights.vcm = fmin(weights.vcm, LARGEST_WEIGHT);
     weights.vc = fmin(weights.vc, LARGEST_WEIGHT);
     weights.vm = fmin(weights.vm, LARGEST_WEIGHT);
+    weights.vc_specular = fmin(weights.vc_specular, LARGEST_WEIGHT);
     return weights;
 }
 
@@ -25,6 +26,7 @@ static inline PathWeights weights_at_vertex(PathWeights weights, float distance_
     weights.vcm *= distance_squared * inverse;
     weights.vc *= inverse;
     weights.vm *= inverse;
+    weights.vc_specular *= inverse;
     return bounded(weights);
 }
 
@@ -36,22 +38,32 @@ static inline PathWeights weights_after_scattering(PathWeights weights, Techniqu
     PathWeights next;
     if (pdf_w == PDF_DELTA) {
         next.vcm = 0.0f;
-        next.vc = cosine * weights.vc;
+        next.vc = cosine * weights.vc_specular;
         next.vm = cosine * weights.vm;
+        next.vc_specular = next.vc;
         return next;
     }
     const float inverse = 1.0f / pdf_w;
     next.vcm = techniques.connect * inverse;
     next.vc = cosine * inverse * (techniques.merge + weights.vcm + reverse_pdf_w * weights.vc);
     next.vm = cosine * inverse * (1.0f + weights.vcm * techniques.inverse_merge + reverse_pdf_w * weights.vm);
+    next.vc_specular = cosine * inverse * (techniques.merge_unconnected + weights.vcm + reverse_pdf_w * weights.vc);
     return bounded(next);
 }
 
-// One side's share where the vertex is joined to one that generates it with density pdf_a (1/m^2); reverse_pdf_w: of sampling,
-// from the direction of that vertex, the one that this side's subpath came from.
-static inline float connection_share(PathWeights weights, Techniques techniques, float pdf_a, float reverse_pdf_w)
+// A camera subpath knows at each vertex whether the one before it can be connected.
+static inline Techniques techniques_at(Techniques techniques, bool connected)
 {
-    return pdf_a * (techniques.merge + weights.vcm + reverse_pdf_w * weights.vc);
+    if (!connected) techniques.merge = techniques.merge_unconnected;
+    techniques.merge_unconnected = techniques.merge;
+    return techniques;
+}
+
+// One side's share where the vertex is joined to one that generates it with density pdf_a (1/m^2). merge: as in Techniques, at this
+// vertex; reverse_pdf_w: of sampling, from the direction of the other vertex, the one that this side's subpath came from.
+static inline float connection_share(PathWeights weights, float merge, float pdf_a, float reverse_pdf_w)
+{
+    return pdf_a * (merge + weights.vcm + reverse_pdf_w * weights.vc);
 }
 
 // One side's share where the vertex is merged with one of the other side.

@@ -17,6 +17,7 @@ SHARED_SIZE(SamplerKey, 16);
 // Streams never share numbers.
 #define STREAM_CAMERA 1u
 #define STREAM_LIGHT 2u
+#define STREAM_TRIAL 3u
 
 // Structure of the program: -D SAMPLER=...
 #define SAMPLER_INDEPENDENT 0

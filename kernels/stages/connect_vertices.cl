@@ -9,7 +9,7 @@
 // Light vertices lie bounce by bounce: memory would be waited for at each.
 #define PAIRS_AHEAD 8u
 
-__kernel void connect_vertices(SURFACE_PARAMETERS, PathRules rules, Techniques techniques, float scale, uint count,
+__kernel void connect_vertices(SURFACE_PARAMETERS, PathRules rules, float scale, uint count,
                                __global const VertexPair* restrict pairs, __global const PathVertex* restrict camera_vertices,
                                __global const PathVertex* restrict light_vertices, __global Ray* restrict shadow_rays,
                                __global Vec3* restrict radiance)
@@ -42,10 +42,10 @@ __kernel void connect_vertices(SURFACE_PARAMETERS, PathRules rules, Techniques t
     const float3 value = unpack(camera_vertex->throughput) * f_camera * unpack(light_vertex->throughput) * f_light *
                          (fabs(dot(direction, at_camera.normal)) * cos_lit / distance_squared);
     const float light_share =
-        connection_share(light_vertex->weights, techniques, bsdf_pdf_w(&at_camera, &seen, direction) * cos_lit / distance_squared,
+        connection_share(light_vertex->weights, light_vertex->merge, bsdf_pdf_w(&at_camera, &seen, direction) * cos_lit / distance_squared,
                          bsdf_reverse_pdf_w(&at_light, &lit, -direction));
     const float camera_share =
-        connection_share(camera_vertex->weights, techniques, bsdf_pdf_w(&at_light, &lit, -direction) * cos_seen / distance_squared,
+        connection_share(camera_vertex->weights, camera_vertex->merge, bsdf_pdf_w(&at_light, &lit, -direction) * cos_seen / distance_squared,
                          bsdf_reverse_pdf_w(&at_camera, &seen, direction));
     radiance[item] = pack(value * (scale * joint_weight(light_share, camera_share)));
     shadow_rays[item] = segment(ray_origin(&seen, direction), ray_origin(&lit, -direction));

@@ -7,11 +7,12 @@
 // [Georgiev 2012, eqs. 31 to 33], but for what depends on where the ray goes: weights_at_vertex and connect_ratio follow.
 static inline PathWeights weights_at_light(const EmissionSample* emission, Techniques techniques)
 {
-    PathWeights weights = {0.0f, 0.0f, 0.0f};
+    PathWeights weights = {0.0f, 0.0f, 0.0f, 0.0f};
     if (emission->path_flags & PATH_FROM_COLLIMATED_LIGHT) return weights; // neither hit nor chosen by next-event estimation
     weights.vcm = techniques.connect / emission->pdf_ray;
     if (emission->pdf_light > 0.0f) weights.vc = emission->cos_light / (emission->pdf_light * emission->pdf_ray);
     weights.vm = weights.vc * techniques.inverse_merge;
+    weights.vc_specular = weights.vc;
     return weights;
 }
 

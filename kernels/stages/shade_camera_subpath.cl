@@ -12,7 +12,7 @@ static inline PathWeights arriving_weights(const Camera* camera, Techniques tech
     const float cosine = fabs(dot(surface->outgoing, surface->geometric_normal));
     if (depth > 1u) return weights_at_vertex(weights, distance * distance, cosine);
     const float pdf_a = camera_ray_pdf_a(camera, -surface->outgoing, distance);
-    const PathWeights first = {techniques.connect * techniques.light_paths / pdf_a, 0.0f, 0.0f};
+    const PathWeights first = {techniques.connect * techniques.light_paths / pdf_a, 0.0f, 0.0f, 0.0f};
     return weights_at_vertex(first, 1.0f, cosine);
 }
 
@@ -55,7 +55,7 @@ static inline float3 connect_to_light(const SurfaceView* scene, const Surface* s
     const float light_share = light.pdf_w == PDF_DELTA ? 0.0f : bsdf_pdf_w(scattering, surface, light.direction) / light.pdf_w;
     const float emitted_pdf_a = light.emission_ratio * fabs(dot(light.direction, surface->geometric_normal));
     const float camera_share =
-        connection_share(weights, techniques, emitted_pdf_a, bsdf_reverse_pdf_w(scattering, surface, light.direction));
+        connection_share(weights, techniques.merge, emitted_pdf_a, bsdf_reverse_pdf_w(scattering, surface, light.direction));
     return f * light.radiance * (joint_weight(light_share, camera_share) * fabs(dot(light.direction, scattering->normal)));
 }
 
@@ -73,6 +73,7 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SamplerKey
     const SurfaceView scene = SURFACE_VIEW;
     PathState path = paths[index];
     const float3 throughput = unpack(path.throughput);
+    techniques = techniques_at(techniques, path.depth > 1u && path.pdf_w != PDF_DELTA);
     const Hit hit = hits[index];
     const Ray ray = rays[index];
     PathWeights weights = subpaths[index].weights;
@@ -96,7 +97,7 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SamplerKey
     disperse(camera_hero(&scene, key, index), &path, &scattering);
     uint flag = PATH_ENDED;
     if (can_be_joined(&scattering)) {
-        vertices[index] = make_vertex(&surface, &scattering, throughput, path.depth, weights);
+        vertices[index] = make_vertex(&surface, &scattering, throughput, path.depth, weights, techniques.merge, path.eta_scale);
         flag |= PATH_JOINS;
         if (techniques.connect > 0.0f) {
             Ray shadow_ray;

@@ -23,7 +23,7 @@ static inline float splat_weight(const LensConnection* connection, const Surface
                                  PathWeights weights, Techniques techniques)
 {
     const float reverse_pdf_w = bsdf_reverse_pdf_w(scattering, surface, connection->direction);
-    return joint_weight(connection_share(weights, techniques, connection->pdf_a / techniques.light_paths, reverse_pdf_w), 0.0f);
+    return joint_weight(connection_share(weights, techniques.merge_unconnected, connection->pdf_a / techniques.light_paths, reverse_pdf_w), 0.0f);
 }
 
 __kernel void shade_light_subpath(SURFACE_PARAMETERS, Camera camera, __global const PixelFilter* restrict filter, SamplerKey key,
@@ -34,7 +34,7 @@ __kernel void shade_light_subpath(SURFACE_PARAMETERS, Camera camera, __global co
                                   __global PathVertex* restrict vertices, __global VertexLink* restrict links,
                                   __global uint* restrict last_vertices, __global Ray* restrict shadow_rays,
                                   __global Splat* restrict splats, __global Photon* restrict photons,
-                                  __global MergeWeights* restrict merge_weights, __global uint* restrict flags)
+                                  __global PhotonVertex* restrict photon_vertices, __global uint* restrict flags)
 {
     const uint item = get_global_id(0);
     if (item >= *active_count) return;
@@ -61,15 +61,15 @@ __kernel void shade_light_subpath(SURFACE_PARAMETERS, Camera camera, __global co
     disperse(light_hero(&scene, key, index), &path, &scattering);
     uint flag = PATH_ENDED;
     if (techniques.merge > 0.0f && wants_photons(&scene, &surface, false)) {
-        const MergeWeights brought = {subpath.weights.vcm, subpath.weights.vm};
+        const PhotonVertex vertex = {subpath.weights.vcm, subpath.weights.vm, connects && can_be_joined(&scattering) ? slot : NO_VERTEX};
         photons[item] = make_photon(&surface, &path, false);
-        merge_weights[item] = brought;
+        photon_vertices[item] = vertex;
         flag |= PATH_DEPOSIT;
     }
     if (connects && can_be_joined(&scattering)) {
         const float3 flux = unpack(path.throughput);
         vertices[slot] =
-            make_vertex(&surface, &scattering, flux * irradiance_scale(&surface, scattering.normal), path.depth, subpath.weights);
+            make_vertex(&surface, &scattering, flux * irradiance_scale(&surface, scattering.normal), path.depth, subpath.weights, techniques.merge, 1.0f);
         const uint previous = last_vertices[index];
         const VertexLink link = {previous, previous == NO_VERTEX ? 1u : links[previous].rank + 1u};
         links[slot] = link;

@@ -19,7 +19,7 @@ const MethodRegistration registration({
     .parameters = joined(bidirectional_specs(), connection_specs({"own", "resampled"})),
     .create =
         [](RenderContext& context, const Parameters& parameters) {
-            return make_bidirectional(context, parameters, {true, false});
+            return make_bidirectional(context, parameters, {true, PhotonUse::none});
         },
 });
 

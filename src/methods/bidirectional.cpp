@@ -4,6 +4,7 @@
 #include "methods/render_context.h"
 #include "methods/standard_parameters.h"
 #include "stages/photon_merging.h"
+#include "stages/unbiased_gathering.h"
 #include "stages/vertex_connections.h"
 
 #include <algorithm>
@@ -17,6 +18,8 @@ namespace
 
 // Where connections find what merging would only blur, photons are wanted for light that nothing else finds: fewer will do.
 constexpr double pixels_beside_connections = 2.0;
+// Each photon gathered costs a shadow ray and some trials.
+constexpr double pixels_of_gathering = 1.0;
 
 bool resamples(const Parameters& parameters)
 {
@@ -43,7 +46,7 @@ public:
           camera_(context.device, context.camera, context.filter, sampler_kind(parameters), context.scene.surface_options()),
           light_subpaths_(context.device, context.scene, context.camera,
                           {light_path_count(parameters, camera_.count()), camera_.count(), path_rules(parameters), sampler_kind(parameters),
-                           joined_by.connections, joined_by.merging}),
+                           joined_by.connections, joined_by.photons != PhotonUse::none}),
           camera_subpaths_(context.device, context.scene, context.camera, camera_.count(), path_rules(parameters), sampler_kind(parameters),
                            joined_by.connections),
           pool_(context.device, context.scene, std::max(light_subpaths_.paths(), camera_.count()))
@@ -51,32 +54,37 @@ public:
         if (joined_by.connections)
             connections_.emplace(context.device, context.scene, camera_.count(), path_rules(parameters),
                                  connection_list(context.device, parameters, camera_.count()));
-        if (!joined_by.merging) return;
-        first_radius_ =
-            joined_by.connections ? first_radius(context, parameters, pixels_beside_connections) : first_radius(context, parameters);
-        alpha_ = parameters.real("alpha");
-        merging_.emplace(context.device, context.scene, path_rules(parameters), density_kernel(parameters));
+        if (joined_by.photons == PhotonUse::merged) {
+            first_radius_ =
+                joined_by.connections ? first_radius(context, parameters, pixels_beside_connections) : first_radius(context, parameters);
+            alpha_ = parameters.real("alpha");
+            merging_.emplace(context.device, context.scene, path_rules(parameters), density_kernel(parameters));
+        } else if (joined_by.photons == PhotonUse::gathered) {
+            first_radius_ = first_radius(context, parameters, pixels_of_gathering);
+            gathering_.emplace(context.device, context.scene, camera_.count(), path_rules(parameters));
+        }
     }
 
     void render_pass(std::uint64_t iteration) override
     {
         const SamplerKey key = sampler_key(context_.seed, iteration);
-        const float radius = joined_by_.merging ? static_cast<float>(scheduled_radius(first_radius_, alpha_, 2, iteration)) : 0.0f;
+        const float radius = static_cast<float>(scheduled_radius(first_radius_, alpha_, 2, iteration));
         const Techniques techniques = techniques_of(radius);
         light_subpaths_.trace(context_.scene, camera_, pool_, key, techniques);
         if (merging_) merging_->build(light_subpaths_, radius);
+        if (gathering_) gathering_->build(light_subpaths_, radius);
 
         camera_.start(context_.scene, pool_, key);
         camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
+        const ConnectedSubpaths subpaths{pool_, camera_, camera_subpaths_, light_subpaths_, key};
         if (connections_) light_subpaths_.add_splats(camera_.radiance);
         for (;;) {
             camera_subpaths_.shade(context_.scene, camera_, pool_, key, techniques);
-            if (connections_)
-                connections_->connect(context_.scene, {pool_, camera_, camera_subpaths_, light_subpaths_, key}, techniques,
-                                      camera_.radiance);
+            if (connections_) connections_->connect(context_.scene, subpaths, camera_.radiance);
             if (merging_) merging_->merge(pool_, camera_subpaths_, techniques, camera_.radiance);
             if (!pool_.keep_alive()) break;
             pool_.trace(context_.scene);
+            if (gathering_) gathering_->gather(context_.scene, subpaths, camera_.radiance);
         }
         photons_stored_ += light_subpaths_.photons_stored();
         context_.spectral.to_rgb(camera_.radiance);
@@ -86,7 +94,7 @@ public:
     MethodCounters counters() const override
     {
         const std::uint64_t iterations = context_.film.iterations();
-        return {iterations * light_subpaths_.paths(), iterations * camera_.count(), photons_stored_, pool_.rays_traced()};
+        return {iterations * light_subpaths_.paths(), iterations * camera_.count(), photons_stored_, pool_.rays_traced() + (gathering_ ? gathering_->trials() : 0)};
     }
 
     void serialize(StateArchive& archive) override
@@ -94,6 +102,7 @@ public:
         archive.value("photons stored", photons_stored_);
         pool_.serialize(archive);
         light_subpaths_.serialize(archive);
+        if (gathering_) gathering_->serialize(archive);
     }
 
 private:
@@ -101,7 +110,7 @@ private:
     {
         const float paths = static_cast<float>(light_subpaths_.paths());
         const float merge = std::numbers::pi_v<float> * radius * radius * paths;
-        return {merge, merge > 0.0f ? 1.0f / merge : 0.0f, joined_by_.connections ? 1.0f : 0.0f, paths};
+        return {merge, merge > 0.0f ? 1.0f / merge : 0.0f, gathering_ ? 0.0f : merge, joined_by_.connections ? 1.0f : 0.0f, paths};
     }
 
     RenderContext& context_;
@@ -112,6 +121,7 @@ private:
     PathPool pool_;
     std::optional<VertexConnections> connections_;
     std::optional<PhotonMerging> merging_;
+    std::optional<UnbiasedGathering> gathering_;
     double first_radius_ = 0.0, alpha_ = 1.0;
     std::uint64_t photons_stored_ = 0;
 };

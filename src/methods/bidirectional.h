@@ -1,5 +1,6 @@
 // Bidirectional methods: subpaths from the camera and from the lights, joined by connections [Veach and Guibas 1995; Lafortune
-// and Willems 1993], by merging, or by both [Georgiev et al. 2012; Hachisuka et al. 2012], under the balance heuristic.
+// and Willems 1993], by merging, or by both [Georgiev et al. 2012; Hachisuka et al. 2012], or by photons gathered without bias
+// [Qin et al. 2015], under the balance heuristic.
 #pragma once
 
 #include "methods/method.h"
@@ -7,10 +8,12 @@
 namespace sundog
 {
 
+enum class PhotonUse { none, merged, gathered }; // gathered: without bias
+
 // Which techniques a method has.
 struct JoinedBy {
     bool connections = true; // with next-event estimation and splats of light subpaths
-    bool merging = true;
+    PhotonUse photons = PhotonUse::merged;
 };
 
 // What `connections` says.

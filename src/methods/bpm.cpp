@@ -20,7 +20,7 @@ const MethodRegistration registration({
     .parameters = joined(bidirectional_specs(), merging_specs()),
     .create =
         [](RenderContext& context, const Parameters& parameters) {
-            return make_bidirectional(context, parameters, {false, true});
+            return make_bidirectional(context, parameters, {false, PhotonUse::merged});
         },
 });
 

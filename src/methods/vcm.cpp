@@ -16,8 +16,8 @@ ParameterSpec merging_spec()
 
 std::unique_ptr<Method> create(RenderContext& context, const Parameters& parameters)
 {
-    const JoinedBy joined_by = {has_connections(parameters), parameters.boolean("merging")};
-    if (!joined_by.connections && !joined_by.merging)
+    const JoinedBy joined_by = {has_connections(parameters), parameters.boolean("merging") ? PhotonUse::merged : PhotonUse::none};
+    if (!joined_by.connections && joined_by.photons == PhotonUse::none)
         parameters.refuse("merging", "vcm cannot do without both connections and merging: nothing would join its subpaths");
     return make_bidirectional(context, parameters, joined_by);
 }

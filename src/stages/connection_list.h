@@ -1,22 +1,12 @@
 // Which light vertices the camera vertices of a bounce connect to.
 #pragma once
 
-#include "stages/camera_subpaths.h"
-#include "stages/light_subpaths.h"
+#include "stages/connected_pairs.h"
 
 #include <memory>
 
 namespace sundog
 {
-
-// What connections are chosen from.
-struct ConnectedSubpaths {
-    PathPool& pool; // whose flags say which paths left a vertex
-    const CameraPaths& camera;
-    const CameraSubpaths& camera_subpaths;
-    const LightSubpaths& light_subpaths;
-    SamplerKey key;
-};
 
 class ConnectionList
 {

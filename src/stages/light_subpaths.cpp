@@ -8,8 +8,8 @@ LightSubpaths::LightSubpaths(Device& device, const DeviceScene& scene, const Cam
       subpaths_(device, settings.paths, "light subpaths"), vertices_(device, settings.connects ? 4 * settings.paths : 1, "light vertices"),
       links_(device, vertices_.size(), "light vertex links"), last_vertices_(device, settings.paths, "last light vertices"),
       photon_deposits_(device, settings.merges ? settings.paths : 1, "photon deposits"),
-      merge_deposits_(device, settings.merges ? settings.paths : 1, "merge weight deposits"),
-      photons_(device, "photons", settings.merges ? 2 * settings.paths : 1), merge_weights_(device, "merge weights", photons_.capacity())
+      photon_vertex_deposits_(device, settings.merges ? settings.paths : 1, "photon vertex deposits"),
+      photons_(device, "photons", settings.merges ? 2 * settings.paths : 1), photon_vertices_(device, "photon vertices", photons_.capacity())
 {
     BuildOptions options = scene.surface_options();
     use_sampler(options, settings.sampler);
@@ -41,7 +41,7 @@ bool LightSubpaths::trace_once(const DeviceScene& scene, const CameraPaths& came
     slots_ = 0;
     splats_.clear();
     photons_.clear();
-    merge_weights_.clear();
+    photon_vertices_.clear();
     emit_light_subpaths_(count, scene.surfaces(), key, techniques, count, pool.rays, pool.paths, subpaths_, pool.active(), last_vertices_);
     pool.start(count);
     do {
@@ -49,13 +49,13 @@ bool LightSubpaths::trace_once(const DeviceScene& scene, const CameraPaths& came
         pool.trace(scene);
         shade_light_subpath_(pool.items(), scene.surfaces(), camera.camera(), camera.filter(), key, settings_.rules, techniques, count,
                              static_cast<uint>(slots_), pool.hits, pool.active(), pool.active_count(), pool.rays, pool.paths, subpaths_,
-                             vertices_, links_, last_vertices_, splats_.shadow_rays(), splats_.deposits, photon_deposits_, merge_deposits_,
+                             vertices_, links_, last_vertices_, splats_.shadow_rays(), splats_.deposits, photon_deposits_, photon_vertex_deposits_,
                              pool.flags);
         slots_ += pool.items();
         if (settings_.connects) splats_.collect(scene, pool);
         if (settings_.merges) {
             photons_.append(pool.compaction, photon_deposits_, pool.flags, pool.active_count(), pool.items());
-            merge_weights_.append(pool.compaction, merge_deposits_, pool.flags, pool.active_count(), pool.items());
+            photon_vertices_.append(pool.compaction, photon_vertex_deposits_, pool.flags, pool.active_count(), pool.items());
         }
     } while (pool.keep_alive());
     return photons_complete() && splats_.complete();
@@ -66,7 +66,7 @@ bool LightSubpaths::photons_complete()
     photons_stored_ = photons_.read_count();
     if (photons_stored_ <= photons_.capacity()) return true;
     photons_.grow(photons_stored_);
-    merge_weights_.grow(photons_stored_);
+    photon_vertices_.grow(photons_stored_);
     return false;
 }
 
@@ -81,7 +81,7 @@ void LightSubpaths::serialize(StateArchive& archive)
 {
     splats_.serialize(archive);
     photons_.serialize(archive);
-    merge_weights_.serialize(archive);
+    photon_vertices_.serialize(archive);
     // As with records: a resumed render would trace again what it has no room for, and count rays twice.
     std::uint64_t slots = vertices_.size();
     archive.value("light vertex slots", slots);

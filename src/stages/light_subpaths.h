@@ -38,7 +38,7 @@ public:
     std::size_t slots() const { return slots_; }
 
     const RecordList<Photon>& photons() const { return photons_; }
-    const RecordList<MergeWeights>& merge_weights() const { return merge_weights_; }
+    const RecordList<PhotonVertex>& photon_vertices() const { return photon_vertices_; }
     std::size_t photons_stored() const { return photons_stored_; } // in this iteration
 
     std::size_t paths() const { return settings_.paths; }
@@ -60,9 +60,9 @@ private:
     Buffer<uint> last_vertices_;
     std::size_t slots_ = 0, photons_stored_ = 0;
     Buffer<Photon> photon_deposits_;
-    Buffer<MergeWeights> merge_deposits_;
+    Buffer<PhotonVertex> photon_vertex_deposits_;
     RecordList<Photon> photons_;
-    RecordList<MergeWeights> merge_weights_;
+    RecordList<PhotonVertex> photon_vertices_;
 };
 
 } // namespace sundog

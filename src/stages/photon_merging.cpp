@@ -21,7 +21,7 @@ void PhotonMerging::build(const LightSubpaths& light, float radius)
         weight_streams_ = {}; // give back before asking for more
         weight_streams_ = Buffer<float>(*device_, 2 * stride, "merge weight streams");
     }
-    reorder_merge_weights_(light.photons_stored(), light.merge_weights().records(), map_.order(), light.photons().count(),
+    reorder_merge_weights_(light.photons_stored(), light.photon_vertices().records(), map_.order(), light.photons().count(),
                            static_cast<uint>(stride), weight_streams_);
 }
 

@@ -84,8 +84,11 @@ std::vector<double> balance_weights(const PathDensities& path, Techniques techni
         if (!path.specular(k - 1)) density[static_cast<std::size_t>(k - 1)] = product(camera, 1, k - 1) * path.connect_pdf;
     }
     density[static_cast<std::size_t>(k)] = product(camera, 1, k);
-    for (int i = 1; i <= k - 1; i++)
-        if (!path.specular(i)) density[static_cast<std::size_t>(k + i)] = product(camera, 1, i) * product(light, i, k) * measure.merging;
+    // Gathered photons take the place of what the vertex before them has found, so that one must be there to connect to them.
+    const bool gathered = techniques.merge_unconnected < techniques.merge;
+    for (int i = gathered ? 2 : 1; i <= k - 1; i++)
+        if (!path.specular(i) && !(gathered && path.specular(i - 1)))
+            density[static_cast<std::size_t>(k + i)] = product(camera, 1, i) * product(light, i, k) * measure.merging;
     for (int t = 0; t <= k; t++) density[static_cast<std::size_t>(t)] *= measure.others;
     double sum = 0.0;
     for (double d : density) sum += d;
@@ -107,11 +110,15 @@ __kernel void weigh_paths(uint count, Techniques techniques, __global const floa
     __global float* w = weights + index * 2 * MAX_EDGES;
     const int k = (int)p[0];
     PathWeights camera[MAX_EDGES + 1], light[MAX_EDGES + 1];
-    const PathWeights first = {techniques.connect * techniques.light_paths / p[1], 0.0f, 0.0f};
+    const PathWeights first = {techniques.connect * techniques.light_paths / p[1], 0.0f, 0.0f, 0.0f};
     camera[1] = weights_at_vertex(first, 1.0f, AT(1, 3));
-    for (int i = 1; i < k; ++i)
-        camera[i + 1] = weights_at_vertex(weights_after_scattering(camera[i], techniques, AT(i, 0), AT(i, 1), AT(i, 2)), AT(i, 4), AT(i + 1, 3));
-    PathWeights start = {techniques.connect / p[3], AT(k, 3) / (p[2] * p[3]), AT(k, 3) / (p[2] * p[3]) * techniques.inverse_merge};
+    Techniques at[MAX_EDGES + 1];
+    for (int i = 1; i < k; ++i) {
+        at[i] = techniques_at(techniques, i > 1 && AT(i - 1, 0) > 0.0f);
+        camera[i + 1] = weights_at_vertex(weights_after_scattering(camera[i], at[i], AT(i, 0), AT(i, 1), AT(i, 2)), AT(i, 4), AT(i + 1, 3));
+    }
+    const float emitted = AT(k, 3) / (p[2] * p[3]);
+    PathWeights start = {techniques.connect / p[3], emitted, emitted * techniques.inverse_merge, emitted};
     light[k - 1] = weights_at_vertex(start, AT(k - 1, 4), AT(k - 1, 2));
     light[k - 1].vcm *= p[4] / p[2];
     for (int i = k - 1; i > 1; --i)
@@ -119,18 +126,23 @@ __kernel void weigh_paths(uint count, Techniques techniques, __global const floa
     for (int i = 0; i < 2 * k; ++i) w[i] = 0.0f;
     if (techniques.connect > 0.0f) {
         if (AT(1, 0) > 0.0f)
-            w[0] = joint_weight(connection_share(light[1], techniques, p[1] * AT(1, 3) / techniques.light_paths, AT(1, 0)), 0.0f);
+            w[0] = joint_weight(connection_share(light[1], techniques.merge_unconnected, p[1] * AT(1, 3) / techniques.light_paths, AT(1, 0)), 0.0f);
         for (int i = 1; i <= k - 2; ++i)
             if (AT(i, 0) > 0.0f && AT(i + 1, 0) > 0.0f)
-                w[i] = joint_weight(connection_share(light[i + 1], techniques, AT(i, 0) * AT(i + 1, 3) / AT(i, 4), AT(i + 1, 0)),
-                                    connection_share(camera[i], techniques, AT(i + 1, 1) * AT(i, 2) / AT(i, 4), AT(i, 1)));
+                w[i] = joint_weight(connection_share(light[i + 1], techniques.merge, AT(i, 0) * AT(i + 1, 3) / AT(i, 4), AT(i + 1, 0)),
+                                    connection_share(camera[i], at[i].merge, AT(i + 1, 1) * AT(i, 2) / AT(i, 4), AT(i, 1)));
         const int c = k - 1;
         if (AT(c, 0) > 0.0f) {
             const float camera_pdf_a = AT(c, 0) * AT(k, 3) / AT(c, 4);
-            w[c] = joint_weight(camera_pdf_a / p[4], connection_share(camera[c], techniques, p[2] / p[4] * p[3] * AT(c, 2) / AT(c, 4), AT(c, 1)));
+            w[c] = joint_weight(camera_pdf_a / p[4], connection_share(camera[c], at[c].merge, p[2] / p[4] * p[3] * AT(c, 2) / AT(c, 4), AT(c, 1)));
         }
     }
     w[k] = hit_weight(camera[k], p[4], p[2] * p[3]);
+    if (GATHERED) {
+        for (int i = 2; i <= k - 1; ++i) // as connecting the vertices i - 1 and i, times the ratio of the two densities
+            w[k + i] = w[i - 1] * techniques.merge * AT(i - 1, 0) * AT(i, 3) / AT(i - 1, 4);
+        return;
+    }
     for (int i = 1; i <= k - 1; ++i)
         if (AT(i, 0) > 0.0f && techniques.merge > 0.0f)
             w[k + i] = joint_weight(merge_share(light[i].vcm, light[i].vm, techniques, AT(i, 0)), merge_share(camera[i].vcm, camera[i].vm, techniques, AT(i, 1)));
@@ -173,7 +185,7 @@ protected:
                 for (float value : {v.pdf_to_light, v.pdf_to_camera, v.cos_to_light, v.cos_to_camera, v.distance_squared}) *p++ = value;
         }
         Buffer<float> weights(device_, paths.size() * 2 * max_edges, "weights");
-        const Kernel kernel = Kernel::from_source(device_, "weigh_paths", "Weigh paths", weigh_paths);
+        const Kernel kernel = Kernel::from_source(device_, "weigh_paths", "Weigh paths", weigh_paths, {{{"GATHERED", techniques.merge_unconnected < techniques.merge ? "1" : "0"}}, {}});
         kernel(paths.size(), static_cast<uint>(paths.size()), techniques, Buffer<float>(device_, densities, "densities"), weights);
         const std::vector<float> all = weights.download();
         std::vector<std::vector<double>> result;
@@ -207,27 +219,35 @@ protected:
 TEST_F(PathWeightsOnDevice, AreBalancedOverConnectionsAndMerging)
 {
     for (float merge : {1e-3f, 1.0f, 1e3f}) {
-        const Techniques techniques = {merge, 1.0f / merge, 1.0f, 1000.0f};
+        const Techniques techniques = {merge, 1.0f / merge, merge, 1.0f, 1000.0f};
         expect_balance(techniques, vertex_merging(techniques));
     }
 }
 
 TEST_F(PathWeightsOnDevice, AreThoseOfUnifiedPathSampling)
 {
-    const Techniques techniques = {0.3f, 1.0f / 0.3f, 1.0f, 1000.0f};
+    const Techniques techniques = {0.3f, 1.0f / 0.3f, 0.3f, 1.0f, 1000.0f};
     expect_balance(techniques, unified_path_sampling(techniques));
 }
 
 TEST_F(PathWeightsOnDevice, AreBalancedOverConnectionsAlone)
 {
-    const Techniques techniques = {0.0f, 0.0f, 1.0f, 1000.0f};
+    const Techniques techniques = {0.0f, 0.0f, 0.0f, 1.0f, 1000.0f};
     expect_balance(techniques, vertex_merging(techniques));
 }
 
 TEST_F(PathWeightsOnDevice, AreBalancedOverMergingAlone)
 {
-    const Techniques techniques = {0.3f, 1.0f / 0.3f, 0.0f, 1000.0f};
+    const Techniques techniques = {0.3f, 1.0f / 0.3f, 0.3f, 0.0f, 1000.0f};
     expect_balance(techniques, vertex_merging(techniques));
+}
+
+TEST_F(PathWeightsOnDevice, AreBalancedOverConnectionsAndGathering)
+{
+    for (float merge : {1e-3f, 1.0f, 1e3f}) {
+        const Techniques techniques = {merge, 1.0f / merge, 0.0f, 1.0f, 1000.0f};
+        expect_balance(techniques, vertex_merging(techniques));
+    }
 }
 
 } // namespace
