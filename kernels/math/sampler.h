@@ -60,7 +60,15 @@ static inline uint4 next_words(Sampler* sampler)
 #endif
 }
 
-// The same, each in [0, 1).
+// The numbers of block `block` of a camera path's vertex alone.
+static inline uint4 camera_words(SamplerKey key, uint pixel, uint depth, uint block)
+{
+    Sampler sampler = camera_sampler(key, pixel, depth);
+    sampler.block += block;
+    return next_words(&sampler);
+}
+
+// The same as next_words, each in [0, 1).
 static inline float4 next_4d(Sampler* sampler) { return unit_float4(next_words(sampler)); }
 
 #endif

@@ -26,6 +26,8 @@ SHARED_SIZE(PathState, 32);
 #define PATH_FROM_COLLIMATED_LIGHT 4u
 // A light path that a lobe has scattered which is neither specular nor narrow.
 #define PATH_SCATTERED_BROADLY 8u
+// A camera path with two vertices in a row, the lens one of them, that light subpaths can be connected between.
+#define PATH_CONNECTABLE 16u
 
 // max_depth: most edges of a whole path from light to camera, UNBOUNDED_DEPTH for no bound.
 // rr_depth: Russian roulette starts at this vertex.

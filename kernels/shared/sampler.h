@@ -25,6 +25,8 @@ SHARED_SIZE(SamplerKey, 16);
 
 // Blocks of four dimensions that one vertex of a path may use. Block 0 is the path's start.
 #define BLOCKS_PER_VERTEX 3u
+// Of a camera path's vertex: light sampling and the choice of a lobe, the next direction, and one that few vertices need.
+#define BLOCK_SPARE 2u
 
 SHARED_END
 #endif

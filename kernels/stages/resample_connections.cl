@@ -7,13 +7,10 @@
 #include "shared/bidirectional.h"
 #include "shared/queue.h"
 
-// Vertices use two blocks of random numbers themselves.
 static inline uint4 pick_words(SamplerKey key, uint path, uint depth, uint width, uint height)
 {
     const uint2 pixel = pixel_of_path(path, width, height);
-    Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, depth);
-    sampler.block += 2u;
-    return next_words(&sampler);
+    return camera_words(key, pixel.y * width + pixel.x, depth, BLOCK_SPARE);
 }
 
 __kernel void resample_connections(SamplerKey key, uint width, uint height, uint picks, uint slots, __global const uint* restrict active,

@@ -1,9 +1,11 @@
 // One vertex of a camera subpath. Reads hits of the active paths; adds emission to radiance; writes the vertex, which light
 // subpaths are joined to, the light's shadow ray with what it would bring, the next ray, and whether the path left a vertex and
-// goes on. One work-item an active path. Used by the bidirectional methods.
+// goes on. One work-item an active path. -D REGULARIZED: specular vertices have light as well, on paths that no technique finds. Used
+// by the bidirectional methods.
 #include "scene/camera_rays.h"
 #include "scene/continue_path.h"
 #include "scene/direct_light.h"
+#include "scene/mollified_light.h"
 #include "scene/path_vertex.h"
 
 static inline PathWeights arriving_weights(const Camera* camera, Techniques techniques, PathWeights weights, uint depth,
@@ -59,7 +61,7 @@ static inline float3 connect_to_light(const SurfaceView* scene, const Surface* s
     return f * light.radiance * (joint_weight(light_share, camera_share) * fabs(dot(light.direction, scattering->normal)));
 }
 
-__kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SamplerKey key, PathRules rules, Techniques techniques, uint width,
+__kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SamplerKey key, PathRules rules, Techniques techniques, Regularization regularization, uint width,
                                    uint height, __global const Hit* restrict hits, __global const uint* restrict active,
                                    __global const uint* restrict active_count, __global Ray* restrict rays,
                                    __global PathState* restrict paths, __global Subpath* restrict subpaths,
@@ -91,7 +93,8 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SamplerKey
     if (path.depth >= rules.max_depth) return;
 
     const uint2 pixel = pixel_of_path(index, width, height);
-    Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
+    const uint sequence = pixel.y * width + pixel.x;
+    Sampler sampler = camera_sampler(key, sequence, path.depth);
     const uint4 words = next_words(&sampler);
     Scattering scattering = scattering_at(&scene, &surface, unit_float(words.w));
     disperse(camera_hero(&scene, key, index), &path, &scattering);
@@ -99,12 +102,18 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SamplerKey
     if (can_be_joined(&scattering)) {
         vertices[index] = make_vertex(&surface, &scattering, throughput, path.depth, weights, techniques.merge, path.eta_scale);
         flag |= PATH_JOINS;
+        if (path.depth == 1u || path.pdf_w != PDF_DELTA) path.flags |= PATH_CONNECTABLE;
         if (techniques.connect > 0.0f) {
             Ray shadow_ray;
             shadow_radiance[index] =
                 pack(throughput * connect_to_light(&scene, &surface, &scattering, weights, techniques, words, &shadow_ray));
             shadow_rays[index] = shadow_ray;
         }
+    } else if (REGULARIZED && !(path.flags & PATH_CONNECTABLE) && path.scattered > 0u && is_specular(&scattering)) {
+        const float4 u = unit_float4(camera_words(key, sequence, path.depth, BLOCK_SPARE));
+        Ray shadow_ray;
+        shadow_radiance[index] = pack(sample_mollified_light(&scene, &surface, &scattering, path, regularization, words, u, &shadow_ray));
+        shadow_rays[index] = shadow_ray;
     }
     Ray next;
     if (continue_camera_path(&surface, &scattering, rules, &sampler, &path, &next)) {

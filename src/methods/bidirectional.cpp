@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <optional>
 
 namespace sundog
 {
@@ -41,14 +40,14 @@ std::unique_ptr<ConnectionList> connection_list(Device& device, const Parameters
 class Bidirectional final : public Method
 {
 public:
-    Bidirectional(RenderContext& context, const Parameters& parameters, JoinedBy joined_by)
-        : context_(context), joined_by_(joined_by),
+    Bidirectional(RenderContext& context, const Parameters& parameters, JoinedBy joined_by, std::optional<RegularizationSchedule> schedule)
+        : context_(context), joined_by_(joined_by), schedule_(schedule),
           camera_(context.device, context.camera, context.filter, sampler_kind(parameters), context.scene.surface_options()),
           light_subpaths_(context.device, context.scene, context.camera,
                           {light_path_count(parameters, camera_.count()), camera_.count(), path_rules(parameters), sampler_kind(parameters),
                            joined_by.connections, joined_by.photons != PhotonUse::none}),
           camera_subpaths_(context.device, context.scene, context.camera, camera_.count(), path_rules(parameters), sampler_kind(parameters),
-                           joined_by.connections),
+                           joined_by.connections, schedule.has_value()),
           pool_(context.device, context.scene, std::max(light_subpaths_.paths(), camera_.count()))
     {
         if (joined_by.connections)
@@ -70,6 +69,7 @@ public:
         const SamplerKey key = sampler_key(context_.seed, iteration);
         const float radius = static_cast<float>(scheduled_radius(first_radius_, alpha_, 2, iteration));
         const Techniques techniques = techniques_of(radius);
+        const Regularization regularization = schedule_ ? schedule_->at(iteration) : Regularization{};
         light_subpaths_.trace(context_.scene, camera_, pool_, key, techniques);
         if (merging_) merging_->build(light_subpaths_, radius);
         if (gathering_) gathering_->build(light_subpaths_, radius);
@@ -79,7 +79,7 @@ public:
         const ConnectedSubpaths subpaths{pool_, camera_, camera_subpaths_, light_subpaths_, key};
         if (connections_) light_subpaths_.add_splats(camera_.radiance);
         for (;;) {
-            camera_subpaths_.shade(context_.scene, camera_, pool_, key, techniques);
+            camera_subpaths_.shade(context_.scene, camera_, pool_, key, techniques, regularization);
             if (connections_) connections_->connect(context_.scene, subpaths, camera_.radiance);
             if (merging_) merging_->merge(pool_, camera_subpaths_, techniques, camera_.radiance);
             if (!pool_.keep_alive()) break;
@@ -115,6 +115,7 @@ private:
 
     RenderContext& context_;
     JoinedBy joined_by_;
+    std::optional<RegularizationSchedule> schedule_;
     CameraPaths camera_;
     LightSubpaths light_subpaths_;
     CameraSubpaths camera_subpaths_;
@@ -128,10 +129,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<Method> make_bidirectional(RenderContext& context, const Parameters& parameters, JoinedBy joined_by)
+std::unique_ptr<Method> make_bidirectional(RenderContext& context, const Parameters& parameters, JoinedBy joined_by,
+                                           std::optional<RegularizationSchedule> schedule)
 {
     refuse_picks_without_resampling(parameters);
-    return std::make_unique<Bidirectional>(context, parameters, joined_by);
+    return std::make_unique<Bidirectional>(context, parameters, joined_by, schedule);
 }
 
 bool has_connections(const Parameters& parameters)

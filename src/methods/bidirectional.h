@@ -4,6 +4,9 @@
 #pragma once
 
 #include "methods/method.h"
+#include "methods/regularization_schedule.h"
+
+#include <optional>
 
 namespace sundog
 {
@@ -19,7 +22,9 @@ struct JoinedBy {
 // What `connections` says.
 bool has_connections(const Parameters& parameters);
 
-std::unique_ptr<Method> make_bidirectional(RenderContext& context, const Parameters& parameters, JoinedBy joined_by);
+// schedule: of what specular vertices before a light add; none: nothing.
+std::unique_ptr<Method> make_bidirectional(RenderContext& context, const Parameters& parameters, JoinedBy joined_by,
+                                           std::optional<RegularizationSchedule> schedule = {});
 
 // What they have in common, and what connections and merging add. choices: of `connections`.
 std::vector<ParameterSpec> bidirectional_specs();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shared/bidirectional.h"
+#include "shared/regularization.h"
 #include "stages/camera_paths.h"
 
 namespace sundog
@@ -11,11 +12,11 @@ class CameraSubpaths
 {
 public:
     CameraSubpaths(Device& device, const DeviceScene& scene, const Camera& camera, std::size_t count, PathRules rules, SamplerKind sampler,
-                   bool connects);
+                   bool connects, bool regularized);
 
     // One vertex of each active path, with next-event estimation where there are connections. To be joined afterwards: those
     // whose flag has PATH_JOINS.
-    void shade(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, SamplerKey key, Techniques techniques);
+    void shade(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, SamplerKey key, Techniques techniques, Regularization regularization);
 
     Buffer<PathVertex> vertices; // of this bounce, by path
 

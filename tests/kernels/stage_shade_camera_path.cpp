@@ -1,5 +1,6 @@
 // shade_camera_path against plain C++, vertex by vertex along real paths.
 #include "kernels/shading_fixture.h"
+#include "shared/regularization.h"
 
 namespace sundog
 {
@@ -15,7 +16,7 @@ TEST_P(ShadeCameraPath, DoesAsPlainCode)
     const Camera& camera = plain_.camera;
     follow_paths(
         [&](std::size_t items) {
-            shade(items, scene_.surfaces(), key_, rules(), static_cast<uint>(camera.crop_width), static_cast<uint>(camera.crop_height),
+            shade(items, scene_.surfaces(), key_, rules(), Regularization{}, static_cast<uint>(camera.crop_width), static_cast<uint>(camera.crop_height),
                   hits_, active_, active_count_, rays_, paths_, radiance_, shadow_rays_, shadow_radiance_, flags_);
         },
         [&](std::size_t item, uint path, const PlainVertex& vertex) {
