@@ -119,8 +119,15 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"parallel-light", "bpm", {{"radius", "0.2"}, {"photons", "32768"}}}, Case{"glass-in-white", "bpm", {}},
                     Case{"point-over-plane", "bpm", {{"radius", "0.05"}, {"photons", "65536"}}, blur(0.05, 1.0 / 4, 1)},
                     Case{"sphere-light", "bpm", {{"radius", "0.08"}, {"photons", "65536"}}, blur(0.08, 1.0 / 4, 2)},
-                    Case{"orthographic-plane", "bpm", {}}),
+                    Case{"orthographic-plane", "bpm", {}},
+                    Case{"furnace", "upg", {{"radius", "0.02"}}}, Case{"sphere-furnace", "upg", {{"radius", "0.03"}}},
+                    Case{"sphere-light", "upg", {}}, Case{"point-over-plane", "upg", {}}, Case{"glass-in-white", "upg", {}},
+                    Case{"collimated-beam", "upg", {}}),
     name_of);
+
+// No vertex is regularized in them, or none should be.
+INSTANTIATE_TEST_SUITE_P(Regularized, AnalyticScenes,
+                         testing::Values(Case{"glass-in-white", "psr", {{"angle", "20"}, {"paths", "bdpt"}}}), name_of);
 
 // The map is traced once for all iterations; light straight from its source is in the caustic map if it is in any.
 INSTANTIATE_TEST_SUITE_P(

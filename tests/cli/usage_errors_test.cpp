@@ -95,6 +95,8 @@ const UsageCase cases[] = {
     {"nothing_joins_subpaths",
      {"render", "scene.xml", "-m", "vcm", "-p", "connections=none", "-p", "merging=false"},
      {"vcm cannot do without both connections and merging"}},
+    {"light_subpaths_of_paths", {"render", "scene.xml", "-m", "psr", "-p", "photons=100"}, {"photons is for light subpaths", "use -p paths=bdpt"}},
+    {"angle_of_nothing", {"render", "scene.xml", "-m", "psr", "-p", "angle=0"}, {"angle"}},
     {"policy_of_ppm", {"render", "scene.xml", "-m", "ppm", "-p", "radius_policy=fixed"}, {"radius_policy=local", "-m pppm"}},
     {"light_choice_of_photons",
      {"render", "scene.xml", "-m", "sppm", "-p", "direct=photons", "-p", "light_choice=tree"},
