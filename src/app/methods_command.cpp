@@ -67,7 +67,8 @@ void print_method(const MethodInfo& method)
 {
     std::cout << method.name << ": " << method.title << "\n";
     std::cout << "paper: " << method.paper << "\n";
-    std::cout << "estimator: " << method.estimator_class << "\nerrors: " << known_errors(method) << "\n\n" << wrapped(method.description, 0);
+    std::cout << "estimator: " << method.estimator_class << "\nerrors: " << known_errors(method) << "\n\n"
+              << wrapped(method.description, 0);
     std::cout << "\nparameters (-p NAME=VALUE, or in the scene's <integrator>):\n";
     for (const ParameterSpec& spec : method.parameters) {
         const std::string unit = spec.unit.empty() ? "" : ", " + spec.unit;

@@ -147,7 +147,7 @@ private:
     {
         // A map of the pass before goes when this one is there: both have the same programs.
         map = FixedPhotonMap(context_.device, context_.scene, camera_.count(), lookup, traced.photons, traced.light_paths,
-                             context_.film.errors.has_value());
+                             context_.film.errors && lookup.nearest == 0);
         light_paths_ += traced.light_paths;
         photons_stored_ += traced.photons.size();
         rays_ += traced.rays;

@@ -70,14 +70,16 @@ std::optional<ErrorEstimate> make_error_estimate(Device& device, const Film& fil
     }
     for (const auto& [name, value] : method.errors_need)
         if (parameters.text(name) != value)
-            throw UsageError(fmt::format("{0} estimates its error with {1}={2}, not with {1}={3}: use -p {1}={2}, or leave out --errors, --error-image and "
-                                         "--target-error",
-                                         method.name, name, value, parameters.text(name)));
+            throw UsageError(fmt::format(
+                "{0} estimates its error with {1}={2}, not with {1}={3}: use -p {1}={2}, or leave out --errors, --error-image and "
+                "--target-error",
+                method.name, name, value, parameters.text(name)));
     const std::size_t pixels = static_cast<std::size_t>(film.crop_width) * static_cast<std::size_t>(film.crop_height);
     return ErrorEstimate(device, pixels, method.error_model == ErrorModel::bias_and_variance, settings.errors->confidence);
 }
 
-DeviceFilm make_film(Device& device, const Film& description, const MethodInfo& method, const Parameters& parameters, const RenderSettings& settings)
+DeviceFilm make_film(Device& device, const Film& description, const MethodInfo& method, const Parameters& parameters,
+                     const RenderSettings& settings)
 {
     DeviceFilm film(device, description.crop_width, description.crop_height);
     film.errors = make_error_estimate(device, description, method, parameters, settings);
