@@ -137,6 +137,15 @@ TEST_F(CliErrors, one_photon_map_cannot_tell_its_error_and_fresh_ones_can)
     expect_failure(errors_of({"maps=fresh", "precompute=true", "max_depth=-1"}), 2, {"no bias of irradiance", "use -p precompute=false"});
     expect_failure(errors_of({"maps=fresh", "relaxation=5"}), 2, {"no bias of photons that were moved", "use -p relaxation=0"});
     EXPECT_EQ(files(), std::vector<std::string>{"scene.xml"}) << "found before rendering";
+    // Its radii stay, and so does their bias: a target may be out of reach.
+    const std::vector<std::string> fresh{"render",     "scene.xml",      "-m", "photonmapper", "-p",
+                                         "maps=fresh", "--target-error", "5",  "-o",           "p.exr"};
+    expect_failure(run(fresh), 2, {"photonmapper keeps a bias however long it renders", "give -n or -t as well"});
+    std::vector<std::string> bounded = fresh;
+    bounded.insert(bounded.end(), {"-n", "20", "--stats", "s.json"});
+    EXPECT_EQ(run(bounded).status, 0);
+    EXPECT_EQ(stats()["error"]["target_met"], true);
+    EXPECT_EQ(stats()["iterations"], 8);
     for (const char* lookup : {"lookup=radius", "lookup=nearest"}) {
         const Outcome outcome = errors_of({"maps=fresh", lookup});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
