@@ -1,5 +1,5 @@
 // Estimator: the Laplacian of the irradiance in the tangent plane, to which the bias of density estimation is proportional
-// [Hachisuka, Jarosz and Jensen 2010]. Used wherever errors are estimated, but for appm, which has error_estimate.h.
+// [Hachisuka, Jarosz and Jensen 2010]. Used wherever errors are estimated, but for appm, which has error_estimate.h; by nearest_laplacian.h for the k nearest photons.
 #ifndef SUNDOG_ESTIMATOR_H
 #define SUNDOG_ESTIMATOR_H
 #include "density/laplacian_kernel.h"
@@ -21,6 +21,10 @@ static inline void estimator_begin(Estimate* estimate, const GatherQuery* query)
 
 static inline void estimator_add(Estimate* estimate, int8 mask, Offset8 offset, float8 t_squared, float8 red, float8 green, float8 blue)
 {
+#if WITHOUT_KTH_PHOTON
+    // It lies on the rim of the lookup's own disk, up to rounding.
+    mask &= fabs(t_squared * (NARROWEST_LAPLACIAN * NARROWEST_LAPLACIAN) - 1.0f) > (float8)(1e-5f);
+#endif
     const float8 weight = laplacian_shape(t_squared);
     estimate->red += as_float8(mask & as_int8(weight * red));
     estimate->green += as_float8(mask & as_int8(weight * green));

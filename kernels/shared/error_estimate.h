@@ -4,11 +4,15 @@
 #include "shared/vec3.h"
 SHARED_BEGIN
 
-// What estimators/laplacian.h returns.
+// What estimators/laplacian.h and nearest_laplacian.h return.
 typedef struct LaplacianSum {
     Vec3 laplacian; // of the irradiance (W/m^4), times emitted paths
 } LaplacianSum;
 SHARED_SIZE(LaplacianSum, 12);
+
+// No Laplacian is estimated from a disk narrower than this multiple of the lookup's own: at 1.5 the bias of the uniform kernel has
+// two fifths of the estimate's variance.
+#define NARROWEST_LAPLACIAN 1.5f
 
 // Squared errors relative to L^2 + RELATIVE_ERROR_OFFSET, summed over pixels and their three channels.
 typedef struct RelativeSquares {

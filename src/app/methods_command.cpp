@@ -45,14 +45,13 @@ std::string allowed_values(const ParameterSpec& spec)
     return fmt::format("{}, {:g} to {:g}", kind, spec.minimum, spec.maximum);
 }
 
-std::string known_errors(ErrorModel model)
+std::string known_errors(const MethodInfo& method)
 {
-    switch (model) {
-    case ErrorModel::variance: return "estimates its variance (--errors, --target-error)";
-    case ErrorModel::bias_and_variance: return "estimates its bias and variance (--errors, --target-error)";
-    case ErrorModel::none: break;
-    }
-    return "not estimated";
+    if (method.error_model == ErrorModel::none) return "not estimated";
+    const char* known = method.error_model == ErrorModel::variance ? "variance" : "bias and variance";
+    std::string condition;
+    for (const auto& [name, value] : method.errors_need) condition += (condition.empty() ? " with " : " and ") + name + "=" + value;
+    return fmt::format("estimates its {}{} (--errors, --target-error)", known, condition);
 }
 
 void print_table()
@@ -68,7 +67,8 @@ void print_method(const MethodInfo& method)
 {
     std::cout << method.name << ": " << method.title << "\n";
     std::cout << "paper: " << method.paper << "\n";
-    std::cout << "estimator: " << method.estimator_class << "\nerrors: " << known_errors(method.error_model) << "\n\n" << wrapped(method.description, 0);
+    std::cout << "estimator: " << method.estimator_class << "\nerrors: " << known_errors(method) << "\n\n"
+              << wrapped(method.description, 0);
     std::cout << "\nparameters (-p NAME=VALUE, or in the scene's <integrator>):\n";
     for (const ParameterSpec& spec : method.parameters) {
         const std::string unit = spec.unit.empty() ? "" : ", " + spec.unit;

@@ -6,6 +6,7 @@
 #include "methods/parameters.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -53,6 +54,7 @@ struct MethodInfo {
     std::string paper; // "Hachisuka and Jensen 2009, ACM TOG 28(5)"
     std::string estimator_class; // "unbiased", "consistent" or "biased"
     ErrorModel error_model = ErrorModel::none;
+    std::map<std::string, std::string> errors_need = {}; // parameters with which alone errors are estimated
     std::string description; // a few sentences: idea, when to use it
     std::vector<ParameterSpec> parameters;
     bool follows_motion = true; // false: what the camera sees is found once, so nothing may move

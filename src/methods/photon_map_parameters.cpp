@@ -38,10 +38,29 @@ ParameterSpec file_spec(const std::string& name, const std::string& description)
 
 } // namespace
 
+ParameterSpec maps_spec()
+{
+    return {
+        "maps",
+        ParameterType::choice,
+        "one",
+        "",
+        "Trace photons once, before the first iteration (one; Jensen 1996), or others in each (fresh): their noise falls with iterations "
+        "then, their blur stays, and errors can be estimated.",
+        0,
+        0,
+        {"one", "fresh"}};
+}
+
+bool has_fresh_maps(const Parameters& parameters)
+{
+    return parameters.text("maps") == "fresh";
+}
+
 ParameterSpec global_photons_spec()
 {
     ParameterSpec spec = photons_spec();
-    spec.description = "Light subpaths of the global map, traced before the first iteration; 0: one a pixel.";
+    spec.description = "Light subpaths of the global map; 0: one a pixel.";
     return spec;
 }
 
@@ -96,8 +115,14 @@ ParameterSpec nearest_spec()
 
 ParameterSpec relaxation_spec()
 {
-    return {"relaxation", ParameterType::integer, "0", "sweeps",
-            "Move photons apart until they lie evenly, so that few suffice for a lookup; about 10 (Spencer and Jones 2009).", 0, 1000, {}};
+    return {"relaxation",
+            ParameterType::integer,
+            "0",
+            "sweeps",
+            "Move photons apart until they lie evenly, so that few suffice for a lookup; about 10 (Spencer and Jones 2009).",
+            0,
+            1000,
+            {}};
 }
 
 ParameterSpec progressive_relaxation_spec()

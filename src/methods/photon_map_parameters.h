@@ -1,4 +1,4 @@
-// Parameters of fixed photon maps, and the lookups that follow from them.
+// Parameters of photonmapper's maps, and the lookups that follow from them.
 #pragma once
 
 #include "methods/render_context.h"
@@ -8,6 +8,7 @@
 namespace sundog
 {
 
+ParameterSpec maps_spec();
 ParameterSpec global_photons_spec();
 ParameterSpec global_radius_spec();
 ParameterSpec caustic_photons_spec();
@@ -20,6 +21,8 @@ ParameterSpec final_gather_spec();
 ParameterSpec precompute_spec();
 ParameterSpec save_map_spec();
 ParameterSpec load_map_spec();
+
+bool has_fresh_maps(const Parameters& parameters);
 
 // light_paths: emitted for the map.
 PhotonLookup global_lookup(const RenderContext& context, const Parameters& parameters, std::uint64_t light_paths);

@@ -30,7 +30,7 @@ void PhotonPass::trace(std::uint64_t iteration, float radius)
 void PhotonPass::estimate_bias(int density_kernel)
 {
     if (!bias_) return;
-    bias_->add(light_.map, queries, iterations_ - 1, {density_kernel, 1.0f / static_cast<float>(light_paths())});
+    bias_->add(light_.map, queries.queries, queries.lobes, iterations_ - 1, {density_kernel, 1.0f / static_cast<float>(light_paths())});
     context_.spectral.to_rgb(context_.film.errors->bias);
     // Sorting costs less than looking through wide cells, and the image stays what it is without errors to the last bit.
     light_.sort_again(radius_);

@@ -3,7 +3,10 @@
 // other light from the global map: looked up where a ray that gathers it arrives [section 4.2], or at once. Iterations
 // average camera paths; the maps' blur and noise stay.
 //
-// In spectral transport the maps are traced again in each iteration, by the same random numbers at that iteration's
+// With fresh maps each iteration traces photons of its own. Its image is one of the same method by another seed, so that the mean
+// of iterations keeps the blur alone; and how they differ tells its error, as in the progressive methods.
+//
+// In spectral transport one map is traced again in each iteration, by the same random numbers at that iteration's
 // wavelengths: the same photons, in other colours, and elsewhere only where glass bends each colour another way.
 //
 // With progressive relaxation each iteration traces new photons, whose flux those of the first take up.
@@ -11,7 +14,9 @@
 #include "base/hash.h"
 #include "methods/importons.h"
 #include "methods/light_pass.h"
+#include "methods/lookup_bias.h"
 #include "methods/method.h"
+#include "methods/photon_map_conflicts.h"
 #include "methods/photon_map_parameters.h"
 #include "methods/traced_photons.h"
 #include "stages/final_gather.h"
@@ -40,10 +45,10 @@ public:
           visible_(context.device, context.scene, camera_.count(), query_rules(parameters), parameters.text("direct") == "nee",
                    sampler_kind(parameters))
     {
-        check(parameters);
+        refuse_conflicts_of_photon_maps(parameters, context.film.errors.has_value());
         if (parameters.boolean("final_gather"))
             final_gather_.emplace(context.device, context.scene, camera_.count(), query_rules(parameters), sampler_kind(parameters));
-        if (context.spectral.is_on() || parameters.boolean("relaxation_progressive"))
+        if (context.spectral.is_on() || has_fresh_maps(parameters) || parameters.boolean("relaxation_progressive"))
             tracer_.emplace(context, parameters);
         else
             make_maps(make_map_photons(context, parameters));
@@ -52,8 +57,9 @@ public:
 
     void render_pass(std::uint64_t iteration) override
     {
-        // At other wavelengths the same photons; else others.
-        if (tracer_) make_maps(tracer_->trace(context_.spectral.is_on() ? 0 : iteration));
+        // One map at other wavelengths: the same photons; else others.
+        const bool are_same = context_.spectral.is_on() && !has_fresh_maps(parameters_);
+        if (tracer_) make_maps(tracer_->trace(are_same ? 0 : iteration));
         const SamplerKey key = sampler_key(context_.seed, iteration);
         const float radius = global_->lookup().radius;
         camera_.start(context_.scene, pool_, key);
@@ -62,12 +68,13 @@ public:
         if (final_gather_) {
             final_gather_->trace(context_.scene, camera_, visible_, pool_, key, radius);
             if (irradiance_) irradiance_->answer(final_gather_->queries, camera_.radiance);
-            global_->add_radiance(final_gather_->queries, final_gather_->lobes, camera_.radiance);
+            look_up(*global_, global_bias_, final_gather_->queries, final_gather_->lobes, iteration);
         } else {
-            global_->add_radiance(visible_.queries, visible_.lobes, camera_.radiance);
+            look_up(*global_, global_bias_, visible_.queries, visible_.lobes, iteration);
         }
-        if (caustic_) caustic_->add_radiance(visible_.queries, visible_.lobes, camera_.radiance);
+        if (caustic_) look_up(*caustic_, caustic_bias_, visible_.queries, visible_.lobes, iteration);
         context_.spectral.to_rgb(camera_.radiance);
+        if (context_.film.errors) context_.spectral.to_rgb(context_.film.errors->bias);
         context_.film.accumulate(camera_.radiance);
     }
 
@@ -93,43 +100,6 @@ public:
     }
 
 private:
-    static void check(const Parameters& parameters)
-    {
-        if (!parameters.text("save_map").empty() && !parameters.text("load_map").empty())
-            parameters.refuse("save_map",
-                              "photonmapper cannot take both save_map and load_map: maps that are loaded are in a file already");
-        for (const char* file : {"save_map", "load_map"})
-            if (is_spectral(parameters) && !parameters.text(file).empty())
-                parameters.refuse(file, "photonmapper cannot take both spectral=true and " + std::string(file) +
-                                            ": each iteration has photon maps of its own, at other wavelengths");
-        if (parameters.integer("importons") > 0 && !parameters.text("load_map").empty())
-            parameters.refuse("importons",
-                              "photonmapper cannot take both importons and load_map: importons choose among photons that are traced");
-        check_progressive(parameters);
-        if (!parameters.boolean("precompute")) return;
-        if (!parameters.boolean("final_gather"))
-            parameters.refuse("precompute", "photonmapper's precompute=true is for gather rays: it cannot go with final_gather=false");
-        if (path_rules(parameters).max_depth != UNBOUNDED_DEPTH)
-            parameters.refuse("precompute", "photonmapper's precompute=true sums light of all depths: it cannot go with max_depth=" +
-                                                parameters.text("max_depth") + "; use -p max_depth=-1");
-    }
-
-    static void check_progressive(const Parameters& parameters)
-    {
-        const std::string name = "relaxation_progressive";
-        if (!parameters.boolean(name)) return;
-        if (is_spectral(parameters))
-            parameters.refuse(name, "photonmapper cannot take both " + name +
-                                        "=true and spectral=true: flux of other wavelengths does not add up");
-        for (const char* file : {"save_map", "load_map"})
-            if (!parameters.text(file).empty())
-                parameters.refuse(name,
-                                  "photonmapper cannot take both " + name + "=true and " + file + ": each iteration changes the maps");
-        if (path_rules(parameters).max_depth != UNBOUNDED_DEPTH)
-            parameters.refuse(name, "photonmapper's " + name + "=true sums light of all depths: it cannot go with max_depth=" +
-                                        parameters.text("max_depth") + "; use -p max_depth=-1");
-    }
-
     void begin_progressive_relaxation()
     {
         const float radius = global_lookup(context_, parameters_, tracer_->global().light_paths()).radius;
@@ -137,6 +107,16 @@ private:
         if (!tracer_->caustic()) return;
         const float focused = caustic_lookup(context_, parameters_, tracer_->caustic()->light_paths()).radius;
         relaxed_caustic_.emplace(context_.device, focused, one_wavefront);
+    }
+
+    // Adds the light that the queries find, and its bias where errors are asked for.
+    void look_up(FixedPhotonMap& map, std::optional<LookupBias>& bias, Buffer<GatherQuery>& queries, const Buffer<LobeRecord>& lobes,
+                 std::uint64_t iteration)
+    {
+        map.add_radiance(queries, lobes, camera_.radiance);
+        if (!context_.film.errors) return;
+        if (!bias) bias.emplace(context_, map.lookup());
+        bias->add(map, queries, lobes, iteration);
     }
 
     // Moves photons to where the map is to have them; with progressive relaxation they become those of all iterations.
@@ -166,7 +146,8 @@ private:
     void add_map(std::optional<FixedPhotonMap>& map, const TracedPhotons& traced, const PhotonLookup& lookup)
     {
         // A map of the pass before goes when this one is there: both have the same programs.
-        map = FixedPhotonMap(context_.device, context_.scene, camera_.count(), lookup, traced.photons, traced.light_paths);
+        map = FixedPhotonMap(context_.device, context_.scene, camera_.count(), lookup, traced.photons, traced.light_paths,
+                             context_.film.errors && lookup.nearest == 0);
         light_paths_ += traced.light_paths;
         photons_stored_ += traced.photons.size();
         rays_ += traced.rays;
@@ -183,6 +164,7 @@ private:
     std::optional<FinalGather> final_gather_;
     std::optional<MapPhotonTracer> tracer_; // of each iteration's photons, where it has others than the one before
     std::optional<FixedPhotonMap> global_, caustic_;
+    std::optional<LookupBias> global_bias_, caustic_bias_; // where errors are asked for
     std::optional<ProgressiveRelaxation> relaxed_global_, relaxed_caustic_;
     std::optional<PrecomputedIrradiance> irradiance_;
     std::uint64_t light_paths_ = 0, photons_stored_ = 0, rays_ = 0; // of the maps; of those of all iterations
@@ -194,16 +176,34 @@ const MethodRegistration registration({
     .title = "Photon mapping",
     .paper = "Jensen 1996, Eurographics Workshop on Rendering",
     .estimator_class = "biased",
+    .error_model = ErrorModel::bias_and_variance,
+    .errors_need = {{"maps", "fresh"}},
     .description =
         "Traces a global and a caustic photon map once, and looks light up in them, diffuse light by final gathering. Soft light without "
-        "noise after few iterations; the maps' blur stays however long it renders.",
-    .parameters = {global_photons_spec(), global_radius_spec(), caustic_photons_spec(),
-                   caustic_radius_spec(), lookup_spec(),        nearest_spec(),
-                   filter_kernel_spec(),  relaxation_spec(),    progressive_relaxation_spec(),
-                   final_gather_spec(),   precompute_spec(),    importons_spec(),
-                   save_map_spec(),       load_map_spec(),      direct_spec(),
-                   light_choice_spec(),   max_depth_spec(),     rr_depth_spec(1, "light subpaths, by albedo"),
-                   sampler_spec(),        spectral_spec(),      iterations_spec()},
+        "noise after few iterations; the maps' blur stays however long it renders, and their noise as well unless each iteration traces "
+        "others.",
+    .parameters = {maps_spec(),
+                   global_photons_spec(),
+                   global_radius_spec(),
+                   caustic_photons_spec(),
+                   caustic_radius_spec(),
+                   lookup_spec(),
+                   nearest_spec(),
+                   filter_kernel_spec(),
+                   relaxation_spec(),
+                   progressive_relaxation_spec(),
+                   final_gather_spec(),
+                   precompute_spec(),
+                   importons_spec(),
+                   save_map_spec(),
+                   load_map_spec(),
+                   direct_spec(),
+                   light_choice_spec(),
+                   max_depth_spec(),
+                   rr_depth_spec(1, "light subpaths, by albedo"),
+                   sampler_spec(),
+                   spectral_spec(),
+                   iterations_spec()},
     .follows_motion = false,
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<PhotonMapping>(context, parameters);

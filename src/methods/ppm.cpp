@@ -123,7 +123,7 @@ private:
         const float inverse_paths = 1.0f / static_cast<float>(light_.light_paths() * hit_points_.size());
         for (HitPoints& points : hit_points_) {
             points.statistics.set_radii(points.queries.queries);
-            bias_->add(light_.map, points.queries, iteration, {0, inverse_paths}); // 0: the uniform kernel
+            bias_->add(light_.map, points.queries.queries, points.queries.lobes, iteration, {0, inverse_paths}); // 0: the uniform kernel
         }
         context_.spectral.to_rgb(context_.film.errors->bias);
         light_.sort_again(first_radius_);

@@ -95,10 +95,12 @@ MapPhotonTracer::MapPhotonTracer(RenderContext& context, const Parameters& param
 MapPhotons MapPhotonTracer::trace(std::uint64_t set)
 {
     std::uint64_t importon_rays = 0;
-    const std::unique_ptr<ImportanceMap> importance = trace_importons(context_, parameters_, importon_rays);
-    MapPhotons maps{global_.trace(*pool_, set, importance.get()), {}};
-    maps.global.rays += importon_rays;
-    if (caustic_) maps.caustic = caustic_->trace(*pool_, set, importance.get());
+    // Where glass disperses camera paths go elsewhere at other wavelengths.
+    if (!importance_ || context_.spectral.is_on()) importance_ = trace_importons(context_, parameters_, importon_rays);
+    MapPhotons maps{global_.trace(*pool_, set, importance_.get()), {}};
+    // A resumed render has counted them before.
+    if (set == 0 || context_.spectral.is_on()) maps.global.rays += importon_rays;
+    if (caustic_) maps.caustic = caustic_->trace(*pool_, set, importance_.get());
     return maps;
 }
 

@@ -1,16 +1,16 @@
-// Photons that are traced once, before the first iteration, or come from a file.
+// Photons of whole maps: traced once, before the first iteration, or anew in each, or from a file.
 #pragma once
 
 #include "methods/parameters.h"
 #include "methods/render_context.h"
+#include "stages/importance_map.h"
 #include "stages/light_paths.h"
 
+#include <memory>
 #include <optional>
 
 namespace sundog
 {
-
-class ImportanceMap;
 
 struct TracedPhotons {
     std::vector<Photon> photons;   // in the order of their batches, bounces and paths
@@ -48,7 +48,7 @@ struct MapPhotons {
     std::optional<TracedPhotons> caustic;
 };
 
-// The same as the parameters say.
+// The same as the parameters say; importons, where they ask for some, are those of all sets.
 class MapPhotonTracer
 {
 public:
@@ -65,6 +65,7 @@ private:
     MapTracer global_;
     std::optional<MapTracer> caustic_;
     std::optional<PathPool> pool_;
+    std::unique_ptr<ImportanceMap> importance_;
 };
 
 // Traced, or read from load_map; and written to save_map. Throws FileError.

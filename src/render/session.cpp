@@ -57,7 +57,8 @@ Parameters choose_parameters(const Scene& scene, const RenderSettings& settings,
 }
 
 // Throws UsageError unless errors are not asked for, or the method can estimate them.
-std::optional<ErrorEstimate> make_error_estimate(Device& device, const Film& film, const MethodInfo& method, const RenderSettings& settings)
+std::optional<ErrorEstimate> make_error_estimate(Device& device, const Film& film, const MethodInfo& method, const Parameters& parameters,
+                                                 const RenderSettings& settings)
 {
     if (!settings.errors) return std::nullopt;
     if (method.error_model == ErrorModel::none) {
@@ -67,14 +68,21 @@ std::optional<ErrorEstimate> make_error_estimate(Device& device, const Film& fil
         throw UsageError(fmt::format("{} cannot estimate its error; choose one of {} (-m NAME), or leave out --errors, --error-image and --target-error",
                                      method.name, fmt::join(able, ", ")));
     }
+    for (const auto& [name, value] : method.errors_need)
+        if (parameters.text(name) != value)
+            throw UsageError(fmt::format(
+                "{0} estimates its error with {1}={2}, not with {1}={3}: use -p {1}={2}, or leave out --errors, --error-image and "
+                "--target-error",
+                method.name, name, value, parameters.text(name)));
     const std::size_t pixels = static_cast<std::size_t>(film.crop_width) * static_cast<std::size_t>(film.crop_height);
     return ErrorEstimate(device, pixels, method.error_model == ErrorModel::bias_and_variance, settings.errors->confidence);
 }
 
-DeviceFilm make_film(Device& device, const Film& description, const MethodInfo& method, const RenderSettings& settings)
+DeviceFilm make_film(Device& device, const Film& description, const MethodInfo& method, const Parameters& parameters,
+                     const RenderSettings& settings)
 {
     DeviceFilm film(device, description.crop_width, description.crop_height);
-    film.errors = make_error_estimate(device, description, method, settings);
+    film.errors = make_error_estimate(device, description, method, parameters, settings);
     return film;
 }
 
@@ -118,7 +126,7 @@ struct RenderSession::State {
         : scene(sized_scene(std::move(scene_in), settings, device_in.info())), device(device_in), info(choose_method(scene, settings)),
           parameters(choose_parameters(scene, settings, info)), seed(settings.seed.value_or(scene.integrator.seed)),
           device_scene(device, scene, is_spectral(parameters), light_selection(parameters)), camera(make_camera(scene.sensor, scene.film)),
-          filter(make_pixel_filter(scene.film.filter)), film(make_film(device, scene.film, info, settings)),
+          filter(make_pixel_filter(scene.film.filter)), film(make_film(device, scene.film, info, parameters, settings)),
           motion(device_scene, scene, camera, seed),
           spectral(device, device_scene, seed), context{device, device_scene, camera, filter, film, spectral, seed, [this] { return light_fingerprint(flatten_scene(scene)); }},
           method(info.create(context, parameters))

@@ -6,23 +6,30 @@ namespace sundog
 {
 
 FixedPhotonMap::FixedPhotonMap(Device& device, const DeviceScene& scene, std::size_t capacity, const PhotonLookup& lookup,
-                               const std::vector<Photon>& photons, std::uint64_t light_paths)
+                               const std::vector<Photon>& photons, std::uint64_t light_paths, bool sorts_again)
     : lookup_(lookup), inverse_paths_(1.0f / static_cast<float>(light_paths)), map_(device, scene.bounds()),
+      records_(std::in_place, device, "photons", std::max<std::size_t>(photons.size(), 1)),
       gather_(device, capacity, "estimators/radiance_estimate.h", lookup.density_kernel,
               scene.has_lobes_to_evaluate() ? std::optional(scene.surface_options()) : std::nullopt, lookup.nearest > 0),
       add_gathered_(device, "add_gathered", "Add gathered light")
 {
-    RecordList<Photon> records(device, "photons", std::max<std::size_t>(photons.size(), 1));
-    records.assign(photons);
+    records_->assign(photons);
     if (lookup.nearest > 0) {
-        map_.build_dense(records, photons.size(), lookup.usual_radius);
+        map_.build_dense(*records_, photons.size(), lookup.usual_radius);
         set_radii_ = Kernel(device, "find_nearest_radii", "Find nearest photons",
                             BuildOptions{{{"NEAREST", std::to_string(lookup.nearest) + "u"}}, {}});
     } else {
-        map_.build(records, photons.size(), lookup.radius);
+        map_.build(*records_, photons.size(), lookup.radius);
         set_radii_ = Kernel(device, "set_query_radius", "Set query radius");
     }
+    if (sorts_again) return;
     device.finish(); // the records go
+    records_.reset();
+}
+
+void FixedPhotonMap::sort_again(float radius)
+{
+    map_.build(*records_, records_->read_count(), radius);
 }
 
 void FixedPhotonMap::add_radiance(Buffer<GatherQuery>& queries, const Buffer<LobeRecord>& lobes, Buffer<Vec3>& radiance)

@@ -18,20 +18,26 @@ struct PhotonLookup {
 class FixedPhotonMap
 {
 public:
-    // light_paths: how many emitted subpaths left the photons. capacity: of queries.
+    // light_paths: how many emitted subpaths left the photons. capacity: of queries. sorts_again: whether it will be asked to.
     FixedPhotonMap(Device& device, const DeviceScene& scene, std::size_t capacity, const PhotonLookup& lookup,
-                   const std::vector<Photon>& photons, std::uint64_t light_paths);
+                   const std::vector<Photon>& photons, std::uint64_t light_paths, bool sorts_again = false);
 
     // radiance[i] += what query i finds (W/m^2/sr). The queries' radii become those of the lookup.
     void add_radiance(Buffer<GatherQuery>& queries, const Buffer<LobeRecord>& lobes, Buffer<Vec3>& radiance);
 
+    // Sorts the photons for other queries than those of add_radiance(), of at most another radius, and ends the map for these.
+    void sort_again(float radius);
+
     const PhotonLookup& lookup() const { return lookup_; }
+    const PhotonMap& photons() const { return map_; }
+    float inverse_paths() const { return inverse_paths_; }
     std::size_t capacity() const { return gather_.sums.size(); } // most queries at once
 
 private:
     PhotonLookup lookup_;
     float inverse_paths_;
     PhotonMap map_;
+    std::optional<RecordList<Photon>> records_; // where it sorts again
     PhotonGather<> gather_;
     Kernel set_radii_;
     Kernel add_gathered_;

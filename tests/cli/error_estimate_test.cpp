@@ -123,6 +123,36 @@ TEST_F(CliErrors, merged_bounds_are_smaller)
                    {"3.exr: cannot be merged, its error confidence is 0.8 but that of 1.exr is 0.9"});
 }
 
+TEST_F(CliErrors, one_photon_map_cannot_tell_its_error_and_fresh_ones_can)
+{
+    const auto errors_of = [&](const std::vector<std::string>& parameters, const char* option = "--errors") {
+        std::vector<std::string> arguments{"render", "scene.xml", "-m", "photonmapper", "-n", "2", "-o", "p.exr", option};
+        if (arguments.back() == "--target-error") arguments.push_back("0.5");
+        for (const std::string& parameter : parameters) arguments.insert(arguments.end(), {"-p", parameter});
+        return run(arguments);
+    };
+    for (const char* option : {"--errors", "--target-error"})
+        expect_failure(errors_of({}, option), 2,
+                       {"photonmapper estimates its error with maps=fresh, not with maps=one: use -p maps=fresh"});
+    expect_failure(errors_of({"maps=fresh", "precompute=true", "max_depth=-1"}), 2, {"no bias of irradiance", "use -p precompute=false"});
+    expect_failure(errors_of({"maps=fresh", "relaxation=5"}), 2, {"no bias of photons that were moved", "use -p relaxation=0"});
+    EXPECT_EQ(files(), std::vector<std::string>{"scene.xml"}) << "found before rendering";
+    // Its radii stay, and so does their bias: a target may be out of reach.
+    const std::vector<std::string> fresh{"render",     "scene.xml",      "-m", "photonmapper", "-p",
+                                         "maps=fresh", "--target-error", "5",  "-o",           "p.exr"};
+    expect_failure(run(fresh), 2, {"photonmapper keeps a bias however long it renders", "give -n or -t as well"});
+    std::vector<std::string> bounded = fresh;
+    bounded.insert(bounded.end(), {"-n", "20", "--stats", "s.json"});
+    EXPECT_EQ(run(bounded).status, 0);
+    EXPECT_EQ(stats()["error"]["target_met"], true);
+    EXPECT_EQ(stats()["iterations"], 8);
+    for (const char* lookup : {"lookup=radius", "lookup=nearest"}) {
+        const Outcome outcome = errors_of({"maps=fresh", lookup});
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_THAT(read_image(folder / "p.exr").channels, IsSupersetOf({"error.R", "bias.R"}));
+    }
+}
+
 #endif
 
 } // namespace

@@ -105,6 +105,10 @@ TEST_F(CliPhotonMapFile, MeaninglessPairsAreRefusedByName)
     expect_failure(render("scene.xml", {"load_map=m", "save_map=n"}), 2, {"cannot take both save_map and load_map"});
     expect_failure(render("scene.xml", {"spectral=true", "save_map=m"}), 2, {"cannot take both spectral=true and save_map"});
     expect_failure(render("scene.xml", {"spectral=true", "load_map=m"}), 2, {"cannot take both spectral=true and load_map"});
+    expect_failure(render("scene.xml", {"maps=fresh", "save_map=m"}), 2, {"cannot take both maps=fresh and save_map", "use -p maps=one"});
+    expect_failure(render("scene.xml", {"maps=fresh", "load_map=m"}), 2, {"cannot take both maps=fresh and load_map", "use -p maps=one"});
+    expect_failure(render("scene.xml", {"maps=fresh", "relaxation_progressive=true", "max_depth=-1"}), 2,
+                   {"relaxation_progressive=true and maps=fresh", "use -p maps=one"});
     expect_failure(render("scene.xml", {"relaxation_progressive=true", "max_depth=-1", "save_map=m"}), 2,
                    {"relaxation_progressive=true and save_map"});
     expect_failure(render("scene.xml", {"relaxation_progressive=true", "max_depth=-1", "spectral=true"}), 2,

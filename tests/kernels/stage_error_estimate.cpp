@@ -20,6 +20,40 @@ namespace
 class ErrorStage : public DeviceFixture
 {
 protected:
+    // Bias over radiance of lookups of the k nearest photons of even light; mean over queries, by cloud.
+    test::Estimate nearest_bias(uint k, float largest, const std::string& estimator)
+    {
+        constexpr std::size_t photon_count = 40'000, query_count = 2000;
+        constexpr float density = photon_count, half_moment = 1.0f / 12.0f; // of the Epanechnikov kernel
+        const BuildOptions nearest{{{"NEAREST", std::to_string(k) + "u"}}, {}};
+        const Kernel find(device_, "find_nearest_radii", "Nearest", nearest);
+        PhotonCloud cloud(device_, {{0, 0, -1}, {1, 1, 1}}, photon_count);
+        PhotonGather<LaplacianSum> laplacians(device_, query_count, estimator, 0, {}, true);
+        const uint count = query_count;
+        std::vector<double> means;
+        for (int i = 0; i < 12; i++) {
+            std::vector<Photon> photons;
+            for (std::size_t j = 0; j < photon_count; j++)
+                photons.push_back(make_test_photon({uniform(0, 1), uniform(0, 1), 0}, {1, 1, 1}));
+            cloud.build_dense(photons, 0.01f);
+            std::vector<GatherQuery> asked;
+            for (std::size_t j = 0; j < query_count; j++)
+                asked.push_back(make_test_query({uniform(0.1f, 0.9f), uniform(0.1f, 0.9f), 0}, 1.0f));
+            const auto queries = upload(asked);
+            find(count, cloud.map.grid(), cloud.map.cell_ends(), cloud.map.cell_ends_offset(), cloud.map.streams(), 0.01f, largest, count,
+                 queries);
+            auto wide = allocate<GatherQuery>(query_count);
+            widen_(count, queries, count, 0.0f, NARROWEST_LAPLACIAN, wide);
+            laplacians.gather(cloud.map, wide, Buffer<LobeRecord>(device_, 1, "lobes"), query_count);
+            const auto bias = upload(std::vector<Vec3>(query_count, {0, 0, 0}));
+            add_bias_(count, queries, laplacians.sums, count, half_moment, bias);
+            double sum = 0.0;
+            for (const Vec3& value : bias.download()) sum += value.x;
+            means.push_back(sum / (density * query_count));
+        }
+        return test::estimate_from(means);
+    }
+
     std::mt19937 random_{5};
     float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
 
@@ -71,6 +105,25 @@ TEST_F(ErrorStage, BiasOfAParaboloidIsExact)
         EXPECT_NEAR(got.z, query.throughput.z * (gathered.flux.z - truth.z), 2e-3);
         EXPECT_GT(got.x - 0.25, 0.5 * 1.1 * radius * radius / (2.0 * (n + 2)) * 0.97);
     }
+}
+
+// Even light has no bias. The k-th photon, which always lies at r_k, would make one: with h = 3/2 r_k the mean of mu_2 / 2 r_k^2 Delta
+// is 1/12 48 / h^4 (1 - 4/9) (3 4/9 - 1) r_k^2 / (pi r_k^2) = 0.146 / (k - 1) of the light.
+TEST_F(ErrorStage, RadiiOfNearestPhotonsMakeNoBias)
+{
+    const double quantile = test::student_quantile(11, 0.005 / 5);
+    for (const uint k : {10u, 40u}) {
+        SCOPED_TRACE(k);
+        const test::Estimate bias = nearest_bias(k, 0.2f, "estimators/nearest_laplacian.h");
+        EXPECT_NEAR(bias.mean, 0.0, quantile * bias.standard_error);
+        EXPECT_LT(quantile * bias.standard_error, 0.1 / (k - 1));
+        const test::Estimate with_kth = nearest_bias(k, 0.2f, "estimators/laplacian.h");
+        EXPECT_NEAR(with_kth.mean, 0.146 / (k - 1), quantile * with_kth.standard_error);
+    }
+    // Within half of the radius that holds ten, where no photon lies at the rim.
+    const test::Estimate few = nearest_bias(10, 0.0045f, "estimators/nearest_laplacian.h");
+    EXPECT_NEAR(few.mean, 0.0, quantile * few.standard_error);
+    EXPECT_LT(quantile * few.standard_error, 0.02);
 }
 
 TEST_F(ErrorStage, WidensAndAddsWhereThereIsAQuery)
@@ -235,7 +288,8 @@ TEST_F(ErrorStage, MethodsThatCannotAreRefusedByName)
         FAIL() << "accepted";
     } catch (const UsageError& error) {
         EXPECT_THAT(error.what(),
-                    testing::HasSubstr("blind cannot estimate its error; choose one of appm, bdpt, cppm, path, ppm, pppm, ptracer, sppm"));
+                    testing::HasSubstr(
+                        "blind cannot estimate its error; choose one of appm, bdpt, cppm, path, photonmapper, ppm, pppm, ptracer, sppm"));
     }
 }
 

@@ -91,14 +91,25 @@ Coverage coverage(const PointOverPlane& plane, const RenderRequest& request, int
     return coverage(plane.scene(), request, seeds, [&](int x, int y) { return Truth{plane.answer(x, y)}; });
 }
 
+// photonmapper sees the lamp's light by its caustic map.
+void set_photons(RenderRequest& request, const std::string& count)
+{
+    request.parameters["photons"] = request.method == "photonmapper" ? "64" : count;
+    if (request.method == "photonmapper") request.parameters["caustic_photons"] = count;
+}
+
 // Light by photons alone, from points that do not depend on those of other iterations.
 RenderRequest photon_request(const std::string& method, std::uint64_t iterations)
 {
     RenderRequest request{method, iterations, {{"sampler", "independent"}}};
     if (method == "path") return request;
-    request.parameters["photons"] = "16384";
+    set_photons(request, "16384");
     request.parameters["radius"] = "0.25";
     if (method != "ppm") request.parameters["direct"] = "photons";
+    if (method == "photonmapper") {
+        request.parameters["maps"] = "fresh";
+        request.parameters["caustic_radius"] = "0.25";
+    }
     return request;
 }
 
@@ -121,7 +132,7 @@ void expect_coverage(const RenderRequest& request, int seeds, double largest_err
 
 TEST(ErrorBounds, HoldAsOftenAsTheySay)
 {
-    for (const char* method : {"pppm", "sppm", "path"}) expect_coverage(photon_request(method, 12), 10, 0.015);
+    for (const char* method : {"pppm", "sppm", "photonmapper", "path"}) expect_coverage(photon_request(method, 12), 10, 0.015);
 }
 
 // Slopes of log squared error against log iterations, of the image and of the image less its estimated bias.
@@ -183,7 +194,7 @@ TEST(ErrorBounds, BiasOfSpectralTransportIsThatOfRgb)
             for (int x = 0; x < plane.size; x++) sum += pixel_error(image, x, y).bias / (plane.size * plane.size);
         return sum;
     };
-    for (const char* method : {"pppm", "sppm", "appm"}) {
+    for (const char* method : {"pppm", "sppm", "appm", "photonmapper"}) {
         SCOPED_TRACE(method);
         std::vector<double> rgb, spectral;
         for (std::uint64_t seed = 1; seed <= 6; seed++) {
@@ -226,17 +237,31 @@ TEST(ErrorBounds, AreMetWhereARenderStops)
 // its pixels are so small that this is all they show.
 TEST(LongErrorBounds, HoldAsOftenAsTheySayForEveryMethod)
 {
-    for (const char* method : {"pppm", "sppm", "ppm", "appm", "cppm", "path"}) {
+    for (const char* method : {"pppm", "sppm", "ppm", "appm", "cppm", "photonmapper", "path"}) {
         SCOPED_TRACE(method);
         const PointOverPlane plane{24, std::string(method) == "ppm" ? 0.3 : 1.5};
         RenderRequest request = photon_request(method, 16);
-        if (request.parameters.contains("photons")) request.parameters["photons"] = "8192";
+        if (request.parameters.contains("photons")) set_photons(request, "8192");
         const Estimate interval = estimate_from(coverage(plane, request, 200).intervals);
         std::cout << fmt::format("{}: interval {:.3f} +- {:.3f}", method, interval.mean, interval.standard_error) << std::endl;
         EXPECT_LT(interval.standard_error, 0.015);
         EXPECT_GT(interval.mean, 0.85);
         EXPECT_LT(interval.mean, 0.95);
     }
+}
+
+// k nearest photons, whose radii go with their noise.
+TEST(LongErrorBounds, HoldAsOftenAsTheySayForNearestPhotons)
+{
+    RenderRequest request = photon_request("photonmapper", 16);
+    set_photons(request, "8192");
+    request.parameters["lookup"] = "nearest";
+    request.parameters["caustic_radius"] = "1";
+    const Estimate interval = estimate_from(coverage({24, 1.5}, request, 200).intervals);
+    std::cout << fmt::format("nearest: interval {:.3f} +- {:.3f}", interval.mean, interval.standard_error) << std::endl;
+    EXPECT_LT(interval.standard_error, 0.015);
+    EXPECT_GT(interval.mean, 0.85);
+    EXPECT_LT(interval.mean, 0.95);
 }
 
 // The tables of docs/errors.md: both samplers, 64 iterations. Truth: an image with errors of its own.
@@ -247,10 +272,11 @@ void print_coverage(const std::string& name, const Scene& scene, const Image& tr
         const PixelError p = pixel_error(truth, x, y);
         return Truth{p.corrected(), p.half_width()};
     };
-    for (const char* method : {"sppm", "pppm", "appm", "cppm", "ppm", "path", "ptracer"}) {
+    for (const char* method : {"sppm", "pppm", "appm", "cppm", "ppm", "photonmapper", "path", "ptracer"}) {
         std::cout << name << " " << method;
         for (const char* sampler : {"independent", "sobol"}) {
-            RenderRequest request{method, 64, {{"sampler", sampler}}};
+            RenderRequest request{method, 64, find_method(method)->errors_need};
+            request.parameters["sampler"] = sampler;
             for (const auto& [parameter, value] : parameters) {
                 const auto& specs = find_method(method)->parameters;
                 if (std::any_of(specs.begin(), specs.end(), [&, p = parameter](const ParameterSpec& spec) { return spec.name == p; }))
@@ -268,8 +294,9 @@ void print_coverage(const std::string& name, const Scene& scene, const Image& tr
 TEST(LongErrorBounds, TableOfCommittedScenes)
 {
     const Scene plane = load_test_scene("analytic/point-over-plane.xml");
-    print_coverage("point-over-plane", plane, render_with_errors(plane, {"path", 512, {}}, 99), 16,
-                   {{"photons", "4096"}, {"radius", "0.25"}, {"direct", "photons"}});
+    print_coverage(
+        "point-over-plane", plane, render_with_errors(plane, {"path", 512, {}}, 99), 16,
+        {{"photons", "4096"}, {"radius", "0.25"}, {"direct", "photons"}, {"caustic_photons", "4096"}, {"caustic_radius", "0.25"}});
 
     Scene glass = load_test_scene("gallery/cornell-glass.xml");
     glass.film.width = glass.film.height = glass.film.crop_width = glass.film.crop_height = 128;

@@ -1,6 +1,7 @@
 // What a fixed photon map says of light whose density is known: the mean over the disk (or under the kernel) exactly, and a
 // bias that a radius half as large divides by four.
 
+#include "methods/bias_estimate.h"
 #include "stages/fixed_photon_map.h"
 #include "stages/light_paths.h"
 #include "support/cornell_scene.h"
@@ -45,6 +46,21 @@ double blurred_irradiance(int kernel, double radius)
         sum += 2.0 * pi * t * kernel_value(kernel, t) / std::pow(1.0 + s * s, 1.5) / steps;
     }
     return sum;
+}
+
+TEST(SmoothingKernels, HalfOfTheirSecondMoments)
+{
+    for (int kernel = 0; kernel < 6; ++kernel) {
+        constexpr int steps = 1000;
+        double mean = 0.0, squares = 0.0;
+        for (int i = 0; i < steps; ++i) {
+            const double t = (i + 0.5) / steps, share = 2.0 * pi * t * kernel_value(kernel, t) / steps;
+            mean += share;
+            squares += share * t * t;
+        }
+        EXPECT_NEAR(mean, 1.0, 1e-4) << kernel;
+        EXPECT_NEAR(half_second_moment(kernel), 0.25 * squares, 1e-5) << kernel; // mu_2 is half of the mean of t^2
+    }
 }
 
 class LampOverPlane : public testing::Test

@@ -182,9 +182,9 @@ TEST_P(ResumePhotonMaps, ResumedIsUninterruptedInAHashedGrid)
 // The channels of errors are part of the image.
 TEST_P(ResumeErrors, ResumedIsUninterruptedWithErrors)
 {
-    const RenderSettings settings = with_errors(settings_for(GetParam()));
+    const RenderSettings settings = with_errors(settings_for(GetParam(), find_method(GetParam())->errors_need));
     const Result whole = render_in_parts(settings, {total_iterations});
-    EXPECT_GT(whole.pixels.size(), render_in_parts(settings_for(GetParam()), {1}).pixels.size());
+    EXPECT_GT(whole.pixels.size(), render_in_parts(settings_for(GetParam(), find_method(GetParam())->errors_need), {1}).pixels.size());
     const Result parts = render_in_parts(settings, {1, 3, total_iterations});
     expect_same(parts, whole);
     EXPECT_EQ(parts.statistics.error->bound, whole.statistics.error->bound);
@@ -193,8 +193,8 @@ TEST_P(ResumeErrors, ResumedIsUninterruptedWithErrors)
 // Asking for errors is no other render.
 TEST_P(ResumeErrors, ErrorsLeaveTheImageAlone)
 {
-    const Result plain = render_in_parts(settings_for(GetParam()), {3}),
-                 asked = render_in_parts(with_errors(settings_for(GetParam())), {3});
+    const RenderSettings settings = settings_for(GetParam(), find_method(GetParam())->errors_need);
+    const Result plain = render_in_parts(settings, {3}), asked = render_in_parts(with_errors(settings), {3});
     const std::size_t pixels = 27 * 27, channels = plain.pixels.size() / pixels, more = asked.pixels.size() / pixels;
     for (std::size_t i = 0; i < pixels; i++)
         for (std::size_t c = 0; c < channels; c++) ASSERT_EQ(asked.pixels[i * more + c], plain.pixels[i * channels + c]) << i << " " << c;
