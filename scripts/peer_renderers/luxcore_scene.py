@@ -3,7 +3,7 @@
 Covers what the gallery needs: rectangles, spheres, cylinders and PLY meshes; diffuse, dielectric, conductor and twosided
 BSDFs; bitmaps as reflectance; area, point, spot and constant emitters; pinhole and thin lens. Anything else raises
 CannotExpress with the reason. Radiometry, as LuxCore's sources have it: `emission` of a material is radiance, `color` of a
-constant light is radiance, that of a point light is power (4 pi times its intensity), that of a projection is intensity.
+constant light is radiance, that of a point light is power (4 pi times its intensity); `gain` of a projection, which ignores its color, is intensity.
 """
 
 import array
@@ -210,9 +210,10 @@ class _Converter:
             _refuse(sensor, "that moves")
         origin, ahead, up = _column(place, 3), _column(place, 2), _column(place, 1)
         # The field of view spans two units of the screen window: here its width, which is what the scene's angle spans.
-        aspect = height / width
+        # LuxCore counts rows from the bottom as height - y - 1 also for real y, which moves its images down by a pixel.
+        aspect, pixel = height / width, 2 / width
         values = {"type": "perspective", "lookat__orig": origin, "lookat__target": _add(origin, ahead), "up": up,
-                  "fieldofview": sensor.values["fov"], "screenwindow": (-1.0, 1.0, -aspect, aspect), "autofocus__enable": 0}
+                  "fieldofview": sensor.values["fov"], "screenwindow": (-1.0, 1.0, -aspect - pixel, aspect - pixel), "autofocus__enable": 0}
         if sensor.type == "thinlens":
             values.update(lensradius=sensor.values["aperture_radius"], focaldistance=sensor.values["focus_distance"])
         self.set("camera", **values)
@@ -315,7 +316,7 @@ class _Converter:
         _write_spot_image(file, math.radians(cutoff), math.radians(beam))
         origin = _column(place, 3)
         self.set(f"lights.{emitter.name}", type="projection", mapfile=str(file), gamma=1.0, fov=2 * cutoff, position=origin,
-                 target=_add(origin, _column(place, 2)), color=emitter.values["intensity"])
+                 target=_add(origin, _column(place, 2)), gain=emitter.values["intensity"])
 
 
 def _write_spot_image(file, cutoff, beam, size=512):
