@@ -2,7 +2,7 @@
 
     python luxcore_render.py JOB.json
 
-The job holds: scene (path of scene properties), config (properties), linear_images, seconds, image (PFM to write), result
+The job holds: size (width, height), scene (path of scene properties), config (properties), seconds, image (PFM to write), result
 (JSON to write: seconds, samples a pixel, means of the image over equal parts of the time).
 """
 
@@ -14,17 +14,6 @@ import numpy
 import pyluxcore
 
 PARTS = 10  # of the time, for the standard error of the image's mean
-
-
-def linearise(images):
-    """Mitsuba's reader decodes sRGB exactly."""
-    if not images:
-        return
-    import mitsuba
-    mitsuba.set_variant("scalar_rgb")
-    for source, target in images.items():
-        image = mitsuba.Bitmap(source)
-        image.convert(mitsuba.Bitmap.PixelFormat.RGB, mitsuba.Struct.Type.Float32, srgb_gamma=False).write(target)
 
 
 def properties(text):
@@ -46,7 +35,6 @@ def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         job = json.load(file)
     pyluxcore.Init()
-    linearise(job["linear_images"])
     scene = pyluxcore.Scene()
     with open(job["scene"], encoding="utf-8") as file:
         scene.Parse(properties(file.read()))

@@ -263,7 +263,7 @@ class _Converter:
         source = self.scene_folder / texture.values["filename"]
         file = source
         if not texture.values["raw"] and source.suffix == ".png":
-            file = self.folder / (source.stem + "-linear.exr")
+            file = self.folder / (source.stem + "-linear.pfm")
             self.linear_images[str(source)] = str(file)
         # LuxCore counts the rows of an image from the top.
         self.set(f"textures.{texture.name}", type="imagemap", file=str(file), gamma=1.0, storage="float",
