@@ -7,6 +7,7 @@ constant light is radiance, that of a point light is power (4 pi times its inten
 """
 
 import array
+import cmath
 import dataclasses
 import math
 import pathlib
@@ -173,6 +174,21 @@ def _cylinder(shape, to_world):
 SHAPES = {"rectangle": _rectangle, "sphere": _sphere, "cylinder": _cylinder}
 
 
+# --- Metals ----------------------------------------------------------------------
+
+
+def _reflectance(cosine, n):
+    """Of a surface of complex index of refraction n, unpolarised (Fresnel)."""
+    inside = cmath.sqrt(n * n - 1 + cosine * cosine)
+    across, along = (cosine - inside) / (cosine + inside), (n * n * cosine - inside) / (n * n * cosine + inside)
+    return (abs(across) ** 2 + abs(along) ** 2) / 2
+
+
+def _mean_reflectance(n, steps=256):
+    """Over directions, weighted by their cosine: uniform in its square."""
+    return sum(_reflectance(math.sqrt((i + 0.5) / steps), n) for i in range(steps)) / steps
+
+
 # --- The converter ---------------------------------------------------------------
 
 
@@ -243,10 +259,11 @@ class _Converter:
         _refuse(bsdf)
 
     def metal(self, bsdf):
-        """A mirror of the reflectance at normal incidence: LuxCore's Fresnel belongs to rough metals alone."""
+        """A mirror of the mean reflectance: LuxCore's Fresnel belongs to rough metals alone."""
         tint = self.colour(bsdf, "specular_reflectance")
-        normal = tuple(((n - 1) ** 2 + k * k) / ((n + 1) ** 2 + k * k) for n, k in zip(bsdf.values["eta"], bsdf.values["k"]))
-        return {"type": "mirror", "kr": tuple(a * b for a, b in zip(tint, normal))}
+        if not isinstance(tint, tuple):
+            _refuse(bsdf, "with a texture")
+        return {"type": "mirror", "kr": tuple(x * _mean_reflectance(complex(n, k)) for x, n, k in zip(tint, bsdf.values["eta"], bsdf.values["k"]))}
 
     def colour(self, plugin, name):
         """A tuple, or the name of a texture."""

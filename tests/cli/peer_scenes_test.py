@@ -33,7 +33,7 @@ BULB = """<scene version="3.0.0">
         <rgb name="specular_reflectance" value="1, 1, 1"/><rgb name="specular_transmittance" value="0.9, 0.8, 0.7"/>
     </bsdf>
     <bsdf type="conductor" id="silver">
-        <rgb name="eta" value="1, 2, 1"/><rgb name="k" value="2, 0, 0"/><rgb name="specular_reflectance" value="0.5, 1, 1"/>
+        <rgb name="eta" value="0.001, 1.5, 1"/><rgb name="k" value="0, 0, 0"/><rgb name="specular_reflectance" value="1, 0.5, 1"/>
     </bsdf>
     <shape type="rectangle" id="floor">
         <transform name="to_world"><matrix value="-2 0 0 0 0 3 0 0 0 0 1 -1 0 0 0 1"/></transform>
@@ -135,7 +135,9 @@ class PeerScenes(unittest.TestCase):
         self.assertEqual((scene["scene.materials.glass.interiorior"], scene["scene.materials.glass.exteriorior"]), (1.5, 1.25))
         self.assertClose(scene["scene.materials.glass.kt"], (0.9, 0.8, 0.7))
         self.assertEqual(scene["scene.materials.lamp-light.type"], "mirror")
-        self.assertClose(scene["scene.materials.lamp-light.kr"], (0.25, 1 / 9, 0))  # ((n-1)^2 + k^2) / ((n+1)^2 + k^2), tinted
+        # All, none, and what a surface of index 1.5 reflects of light from everywhere (0.0918), tinted.
+        for found, wanted in zip(scene["scene.materials.lamp-light.kr"], (1, 0.0918 / 2, 0)):
+            self.assertAlmostEqual(found, wanted, 4)
         self.assertClose(scene["scene.materials.lamp-light.emission"], (2600, 2150, 1500))
         self.assertEqual(scene["scene.materials.lamp-light.emission.directlightsampling.type"], "ENABLED")
         self.assertEqual(scene["scene.objects.lamp.material"], "lamp-light")
