@@ -3,12 +3,45 @@
 #define SUNDOG_SAMPLER_H
 #include "math/hash.h"
 #include "shared/sampler.h"
-#if SAMPLER == SAMPLER_SOBOL
+#if SAMPLER == SAMPLER_CHAIN
+#include "math/chain_numbers.h"
+#elif SAMPLER == SAMPLER_SOBOL
 #include "math/sobol.h"
 #else
 #include "math/philox.h"
 #endif
 
+// What kernels that draw numbers take, and the same as one value for functions: the key, and with Markov chains their states.
+#if SAMPLER == SAMPLER_CHAIN
+#define SAMPLER_PARAMETERS                                                                                                                 \
+    SamplerKey key, __global const MarkovChain* restrict chains, __global const uint* restrict coordinates, uint stored_blocks
+#define SAMPLER_VIEW make_chain_view(chains, coordinates, stored_blocks)
+typedef ChainView SamplerView;
+#else
+#define SAMPLER_PARAMETERS SamplerKey key
+#define SAMPLER_VIEW key
+typedef SamplerKey SamplerView;
+#endif
+
+#if SAMPLER == SAMPLER_CHAIN
+// Paths are numbered as their chains are.
+typedef struct Sampler {
+    ChainStream stream;
+    uint block; // next block of four dimensions
+} Sampler;
+
+static inline Sampler chain_sampler(SamplerView view, uint stream, uint chain, uint depth)
+{
+    const Sampler sampler = {chain_stream(view, chain, stream), depth * BLOCKS_PER_VERTEX};
+    return sampler;
+}
+
+static inline Sampler camera_sampler(SamplerView view, uint path, uint depth) { return chain_sampler(view, 0u, path, depth); }
+
+static inline Sampler light_sampler(SamplerView view, uint path, uint paths, uint depth) { return chain_sampler(view, 1u, path, depth); }
+
+static inline uint4 next_words(Sampler* sampler) { return proposed_words(&sampler->stream, sampler->block++); }
+#else
 typedef struct Sampler {
     uint2 seed;  // independent: the generator's key; Sobol: x is the sequence's seed
     ulong index; // position in the sequence
@@ -59,11 +92,12 @@ static inline uint4 next_words(Sampler* sampler)
     return philox4x32(counter, sampler->seed);
 #endif
 }
+#endif
 
 // The numbers of block `block` of a camera path's vertex alone.
-static inline uint4 camera_words(SamplerKey key, uint pixel, uint depth, uint block)
+static inline uint4 camera_words(SamplerView numbers, uint pixel, uint depth, uint block)
 {
-    Sampler sampler = camera_sampler(key, pixel, depth);
+    Sampler sampler = camera_sampler(numbers, pixel, depth);
     sampler.block += block;
     return next_words(&sampler);
 }

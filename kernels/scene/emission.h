@@ -119,9 +119,9 @@ static inline EmissionSample sample_emission(const SurfaceView* scene, uint4 wor
 }
 
 // Starts light path `path` of `count`: its first ray, and its state with flux as throughput.
-static inline EmissionSample emit_light_path(const SurfaceView* scene, SamplerKey key, uint path, uint count, PathState* state)
+static inline EmissionSample emit_light_path(const SurfaceView* scene, SamplerView numbers, uint path, uint count, PathState* state)
 {
-    Sampler sampler = light_sampler(key, path, count, 0u);
+    Sampler sampler = light_sampler(numbers, path, count, 0u);
     const uint4 words = next_words(&sampler);
     const float4 u_direction = next_4d(&sampler);
     const EmissionSample emission = sample_emission(scene, words, u_direction.xy);

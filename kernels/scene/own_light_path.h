@@ -9,9 +9,13 @@
 // count-th point has nearly the same first coordinate. Neighbours have neighbouring ones, so that memory is read in order.
 static inline uint own_light_path(SamplerKey key, uint path, uint light_paths)
 {
+#if SAMPLER == SAMPLER_CHAIN
+    return path; // both are made by the numbers of one chain
+#else
     const uint iteration = hash_combine(hash_combine(STREAM_LIGHT, key.iteration_low), key.iteration_high);
     const uint shift = hash_combine(hash_combine(iteration, key.seed_low), key.seed_high);
     return (uint)(((ulong)path + shift) % light_paths);
+#endif
 }
 
 #endif

@@ -17,11 +17,16 @@ SHARED_SIZE(SamplerKey, 16);
 // Streams never share numbers.
 #define STREAM_CAMERA 1u
 #define STREAM_LIGHT 2u
-#define STREAM_TRIAL 3u
+#define STREAM_TRIAL 4u // 3: thin_photons.cl
+// Of Markov chains: what their steps are made of, whether they are taken, and the samples that they start from.
+#define STREAM_PROPOSAL 4u
+#define STREAM_DECISION 5u
+#define STREAM_SEED 6u
 
 // Structure of the program: -D SAMPLER=...
 #define SAMPLER_INDEPENDENT 0
 #define SAMPLER_SOBOL 1
+#define SAMPLER_CHAIN 2 // proposals of Markov chains (shared/markov_chain.h)
 
 // Blocks of four dimensions that one vertex of a path may use. Block 0 is the path's start.
 #define BLOCKS_PER_VERTEX 3u

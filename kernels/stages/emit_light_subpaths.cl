@@ -16,7 +16,7 @@ static inline PathWeights weights_at_light(const EmissionSample* emission, Techn
     return weights;
 }
 
-__kernel void emit_light_subpaths(SURFACE_PARAMETERS, SamplerKey key, Techniques techniques, uint count, __global Ray* restrict rays,
+__kernel void emit_light_subpaths(SURFACE_PARAMETERS, SAMPLER_PARAMETERS, Techniques techniques, uint count, __global Ray* restrict rays,
                                   __global PathState* restrict paths, __global Subpath* restrict subpaths, __global uint* restrict active,
                                   __global uint* restrict last_vertices)
 {
@@ -25,7 +25,7 @@ __kernel void emit_light_subpaths(SURFACE_PARAMETERS, SamplerKey key, Techniques
 
     const SurfaceView scene = SURFACE_VIEW;
     PathState state;
-    const EmissionSample emission = emit_light_path(&scene, key, path, count, &state);
+    const EmissionSample emission = emit_light_path(&scene, SAMPLER_VIEW, path, count, &state);
     rays[path] = emission.ray;
     paths[path] = state;
     const Subpath subpath = {weights_at_light(&emission, techniques), emission.light};

@@ -26,7 +26,7 @@ static inline float splat_weight(const LensConnection* connection, const Surface
     return joint_weight(connection_share(weights, techniques.merge_unconnected, connection->pdf_a / techniques.light_paths, reverse_pdf_w), 0.0f);
 }
 
-__kernel void shade_light_subpath(SURFACE_PARAMETERS, Camera camera, __global const PixelFilter* restrict filter, SamplerKey key,
+__kernel void shade_light_subpath(SURFACE_PARAMETERS, Camera camera, __global const PixelFilter* restrict filter, SAMPLER_PARAMETERS,
                                   PathRules rules, Techniques techniques, uint path_count, uint first_slot,
                                   __global const Hit* restrict hits, __global const uint* restrict active,
                                   __global const uint* restrict active_count, __global Ray* restrict rays,
@@ -55,7 +55,7 @@ __kernel void shade_light_subpath(SURFACE_PARAMETERS, Camera camera, __global co
     Subpath subpath = subpaths[index];
     const Surface surface = surface_at(&scene, ray, hit);
     subpath.weights = arriving_weights(&scene, &subpath, path.depth, &surface, ray, hit.t);
-    Sampler sampler = light_sampler(key, index, path_count, path.depth);
+    Sampler sampler = light_sampler(SAMPLER_VIEW, index, path_count, path.depth);
     const float4 u = next_4d(&sampler);
     Scattering scattering = scattering_at(&scene, &surface, next_4d(&sampler).x);
     disperse(light_hero(&scene, key, index), &path, &scattering);

@@ -14,7 +14,7 @@ static inline bool keeps_photon(const PathState* path)
 }
 static inline bool keeps_more_photons(const Scattering* scattering) { return PHOTONS_KEPT != PHOTONS_CAUSTIC || !scatters_broadly(scattering); }
 
-__kernel void shade_photon_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, uint path_count, __global const Hit* restrict hits,
+__kernel void shade_photon_path(SURFACE_PARAMETERS, SAMPLER_PARAMETERS, PathRules rules, uint path_count, __global const Hit* restrict hits,
                                 __global const uint* restrict active, __global const uint* restrict active_count, __global Ray* restrict rays,
                                 __global PathState* restrict paths, __global Photon* restrict deposits, __global uint* restrict flags)
 {
@@ -27,7 +27,7 @@ __kernel void shade_photon_path(SURFACE_PARAMETERS, SamplerKey key, PathRules ru
         const SurfaceView scene = SURFACE_VIEW;
         PathState path = paths[index];
         const Surface surface = surface_at(&scene, rays[index], hit);
-        Sampler sampler = light_sampler(key, index, path_count, path.depth);
+        Sampler sampler = light_sampler(SAMPLER_VIEW, index, path_count, path.depth);
         Scattering scattering = scattering_at(&scene, &surface, next_4d(&sampler).x);
         disperse(light_hero(&scene, key, index), &path, &scattering);
         const bool counted_elsewhere = DIRECT_LIGHT && path.depth == 1u && !(path.flags & PATH_FROM_COLLIMATED_LIGHT);

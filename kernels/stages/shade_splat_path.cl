@@ -3,7 +3,7 @@
 // work-item an active path. Used by ptracer.
 #include "scene/lens_connection.h"
 
-__kernel void shade_splat_path(SURFACE_PARAMETERS, Camera camera, __global const PixelFilter* restrict filter, SamplerKey key, PathRules rules, uint path_count,
+__kernel void shade_splat_path(SURFACE_PARAMETERS, Camera camera, __global const PixelFilter* restrict filter, SAMPLER_PARAMETERS, PathRules rules, uint path_count,
                                __global const Hit* restrict hits, __global const uint* restrict active, __global const uint* restrict active_count,
                                __global Ray* restrict rays, __global PathState* restrict paths, __global Ray* restrict shadow_rays,
                                __global Splat* restrict deposits, __global uint* restrict flags)
@@ -20,7 +20,7 @@ __kernel void shade_splat_path(SURFACE_PARAMETERS, Camera camera, __global const
     PathState path = paths[index];
     if (path.depth >= rules.max_depth) return;
     const Surface surface = surface_at(&scene, rays[index], hit);
-    Sampler sampler = light_sampler(key, index, path_count, path.depth);
+    Sampler sampler = light_sampler(SAMPLER_VIEW, index, path_count, path.depth);
     const float4 u = next_4d(&sampler);
     Scattering scattering = scattering_at(&scene, &surface, next_4d(&sampler).x);
     disperse(light_hero(&scene, key, index), &path, &scattering);

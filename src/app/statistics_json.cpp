@@ -46,6 +46,10 @@ nlohmann::ordered_json statistics_json(const RenderStatistics& statistics, doubl
     json["camera_subpaths"] = statistics.counters.camera_subpaths;
     json["photons_stored"] = statistics.counters.photons_stored;
     json["rays"] = statistics.counters.rays;
+    if (statistics.counters.mutations > 0) {
+        json["mutations"] = statistics.counters.mutations;
+        json["mutations_accepted"] = statistics.counters.mutations_accepted;
+    }
     json["seconds"] = nlohmann::ordered_json::object();
     for (const auto& [stage, seconds] : statistics.stage_seconds) json["seconds"][stage] = seconds;
     json["render_seconds"] = statistics.render_seconds;

@@ -34,7 +34,7 @@ void refuse_picks_without_resampling(const Parameters& parameters)
 std::unique_ptr<ConnectionList> connection_list(Device& device, const Parameters& parameters, std::size_t paths)
 {
     return resamples(parameters) ? make_resampled_connections(device, paths, static_cast<uint>(parameters.integer("picks")))
-                     : make_own_connections(device, paths);
+                     : make_own_connections(device, paths, sampler_kind(parameters));
 }
 
 class Bidirectional final : public Method

@@ -23,6 +23,8 @@ struct MethodCounters {
     std::uint64_t camera_subpaths = 0;
     std::uint64_t photons_stored = 0;
     std::uint64_t rays = 0;
+    std::uint64_t mutations = 0; // of Markov chains
+    std::uint64_t mutations_accepted = 0;
 };
 
 class Method {

@@ -131,9 +131,16 @@ struct RenderSession::State {
           spectral(device, device_scene, seed), context{device, device_scene, camera, filter, film, spectral, seed, [this] { return light_fingerprint(flatten_scene(scene)); }},
           method(info.create(context, parameters))
     {
-        if (scene.has_dispersion() && !device_scene.is_spectral())
-            log_warning("the scene's glass has dispersion, which shows only with spectral=true (-p spectral=true); each index is taken at 589.3 nm");
+        warn_of_dispersion();
         warn_of_beams();
+    }
+
+    void warn_of_dispersion() const
+    {
+        if (!scene.has_dispersion() || device_scene.is_spectral()) return;
+        const std::string cure = parameters.has("spectral") ? "with spectral=true (-p spectral=true)"
+                                                            : fmt::format("in spectral transport, which {} does not have (as -m path -p spectral=true has)", info.name);
+        log_warning(fmt::format("the scene's glass has dispersion, which shows only {}; each index is taken at 589.3 nm", cure));
     }
 
     void warn_of_beams() const

@@ -2,11 +2,15 @@
 
 namespace sundog {
 
-CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, const BuildOptions& surface_options)
-    : camera_(camera), count_(static_cast<std::size_t>(camera.crop_width) * static_cast<std::size_t>(camera.crop_height)),
-      filter_(device, std::vector{filter}, "pixel filter")
+CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, uint width, uint height)
+    : radiance(device, static_cast<std::size_t>(width) * height, "radiance"), camera_(camera), width_(width), height_(height),
+      count_(radiance.size()), filter_(device, std::vector{filter}, "pixel filter")
 {
-    radiance = Buffer<Vec3>(device, count_, "radiance");
+}
+
+CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, const BuildOptions& surface_options)
+    : CameraPaths(device, camera, filter, static_cast<uint>(camera.crop_width), static_cast<uint>(camera.crop_height))
+{
     BuildOptions first_hit_options = surface_options;
     use_camera(first_hit_options, camera);
     record_first_hits_ = Kernel(device, "record_first_hits", "Record first hits", first_hit_options);
@@ -16,9 +20,24 @@ CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter
     generate_camera_rays_ = Kernel(device, "generate_camera_rays", "Generate camera rays", options);
 }
 
-void CameraPaths::start(const DeviceScene& scene, PathPool& pool, SamplerKey key)
+CameraPaths CameraPaths::anywhere(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, std::size_t count)
 {
-    generate_camera_rays_(count_, camera_, filter_, key, static_cast<uint>(count_), pool.rays, pool.paths, radiance, pool.active());
+    CameraPaths paths(device, camera, filter, static_cast<uint>(count), 1u);
+    paths.pixels = Buffer<uint>(device, count, "path pixels");
+    BuildOptions options;
+    use_camera(options, camera);
+    use_sampler(options, sampler);
+    paths.generate_camera_rays_ = Kernel(device, "generate_film_rays", "Generate camera rays", options);
+    return paths;
+}
+
+void CameraPaths::start(const DeviceScene& scene, PathPool& pool, const SamplerSource& numbers)
+{
+    const uint count = static_cast<uint>(count_);
+    if (pixels)
+        generate_camera_rays_(count_, camera_, filter_, numbers, count, pool.rays, pool.paths, radiance, pool.active(), pixels);
+    else
+        generate_camera_rays_(count_, camera_, filter_, numbers, count, pool.rays, pool.paths, radiance, pool.active());
     pool.start(count_);
     pool.trace(scene);
 }

@@ -16,7 +16,7 @@ public:
 
     // One vertex of each active path, with next-event estimation where there are connections. To be joined afterwards: those
     // whose flag has PATH_JOINS.
-    void shade(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, SamplerKey key, Techniques techniques, Regularization regularization);
+    void shade(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, const SamplerSource& numbers, Techniques techniques, Regularization regularization);
 
     Buffer<PathVertex> vertices; // of this bounce, by path
 

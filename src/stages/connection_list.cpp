@@ -14,9 +14,10 @@ uint chunks_of(const PathPool& pool)
 class OwnConnections final : public ConnectionList
 {
 public:
-    OwnConnections(Device& device, std::size_t paths)
-        : count_connections_(device, "count_connections", "Count connections"), scan_counts_(device, "scan_counts", "Scan counts"),
-          list_connections_(device, "list_connections", "List connections"),
+    OwnConnections(Device& device, std::size_t paths, const BuildOptions& options)
+        : count_connections_(device, "count_connections", "Count connections", options),
+          scan_counts_(device, "scan_counts", "Scan counts"),
+          list_connections_(device, "list_connections", "List connections", options),
           chunk_counts_(device, Compaction::chunks_of(paths), "connection counts"), total_(device, 1, "connections")
     {
     }
@@ -81,9 +82,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<ConnectionList> make_own_connections(Device& device, std::size_t paths)
+std::unique_ptr<ConnectionList> make_own_connections(Device& device, std::size_t paths, SamplerKind sampler)
 {
-    return std::make_unique<OwnConnections>(device, paths);
+    BuildOptions options;
+    use_sampler(options, sampler);
+    return std::make_unique<OwnConnections>(device, paths, options);
 }
 
 std::unique_ptr<ConnectionList> make_resampled_connections(Device& device, std::size_t paths, uint picks)

@@ -24,8 +24,9 @@ public:
     virtual float scale(const LightSubpaths&) const { return 1.0f; }
 };
 
-// All vertices of one light subpath for each camera subpath, its own. paths: of the camera.
-std::unique_ptr<ConnectionList> make_own_connections(Device& device, std::size_t paths);
+// All vertices of one light subpath for each camera subpath, its own: with Markov chains that of the same chain, else another one
+// in every iteration. paths: of the camera.
+std::unique_ptr<ConnectionList> make_own_connections(Device& device, std::size_t paths, SamplerKind sampler);
 
 // `picks` (1 to 4) vertices, of any light subpath, for each camera vertex.
 std::unique_ptr<ConnectionList> make_resampled_connections(Device& device, std::size_t paths, uint picks);

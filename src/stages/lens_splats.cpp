@@ -13,11 +13,36 @@ LensSplats::LensSplats(Device& device, const DeviceScene& scene, std::size_t pat
 {
 }
 
+void LensSplats::keep_owners()
+{
+    owners_.emplace(Owners{RecordList<uint>(*device_, "splat owners", splats_.capacity()),
+                           Buffer<float>(*device_, deposits.size(), "splat contributions"),
+                           Kernel(*device_, "add_splat_contributions", "Sum splat contributions")});
+}
+
+void LensSplats::clear()
+{
+    splats_.clear();
+    if (!owners_) return;
+    owners_->paths.clear();
+    owners_->contributions.fill(0.0f);
+}
+
+void LensSplats::serialize(StateArchive& archive)
+{
+    splats_.serialize(archive);
+    if (owners_) owners_->paths.serialize(archive);
+}
+
 void LensSplats::collect(const DeviceScene& scene, PathPool& pool)
 {
     shadow_.trace(scene, pool);
     flag_unoccluded_(pool.items(), pool.active(), pool.active_count(), shadow_.occluded, flags_);
     splats_.append(pool.compaction, deposits, flags_, pool.active_count(), pool.items());
+    if (!owners_) return;
+    owners_->paths.append(pool.compaction, pool.active(), flags_, pool.active_count(), pool.items());
+    owners_->add_splat_contributions(pool.items(), deposits, flags_, pool.active(), pool.active_count(), 1.0f / static_cast<float>(pixels_),
+                                     owners_->contributions);
 }
 
 bool LensSplats::complete()
@@ -25,6 +50,7 @@ bool LensSplats::complete()
     stored_ = splats_.read_count();
     if (stored_ <= splats_.capacity()) return true;
     splats_.grow(stored_);
+    if (owners_) owners_->paths.grow(stored_);
     return false;
 }
 

@@ -6,6 +6,7 @@
 #include "stages/path_pool.h"
 
 #include <memory>
+#include <optional>
 
 namespace sundog
 {
@@ -20,7 +21,7 @@ public:
     Buffer<Ray>& shadow_rays() { return shadow_.rays; }
     Buffer<Splat> deposits;
 
-    void clear() { splats_.clear(); }
+    void clear();
 
     // Keeps the splats whose shadow ray is free.
     void collect(const DeviceScene& scene, PathPool& pool);
@@ -32,9 +33,23 @@ public:
     // the bits are the same every time.
     void add_to(Buffer<Vec3>& radiance);
 
-    void serialize(StateArchive& archive) { splats_.serialize(archive); }
+    // Also keeps which path each splat is of, and what all of a path's together count for as one number.
+    void keep_owners();
+    const RecordList<Splat>& splats() const { return splats_; }
+    std::size_t stored() const { return stored_; } // complete
+    const Buffer<uint>& owners() const { return owners_->paths.records(); }
+    // kernels/math/scalar_contribution.h, by path, over the number of pixels: as a mean of the film.
+    Buffer<float>& contributions() { return owners_->contributions; }
+
+    void serialize(StateArchive& archive);
 
 private:
+    struct Owners {
+        RecordList<uint> paths;
+        Buffer<float> contributions;
+        Kernel add_splat_contributions;
+    };
+
     void reserve_sort();
 
     Device* device_;
@@ -44,6 +59,7 @@ private:
     ShadowRays shadow_;
     Buffer<uint> flags_;
     RecordList<Splat> splats_;
+    std::optional<Owners> owners_;
     std::unique_ptr<KeySort> sort_;
 };
 

@@ -35,19 +35,20 @@ bool LightSubpaths::has_room_for(std::size_t slots)
 }
 
 // False: there was no room for a bounce, and there is now.
-bool LightSubpaths::trace_once(const DeviceScene& scene, const CameraPaths& camera, PathPool& pool, SamplerKey key, Techniques techniques)
+bool LightSubpaths::trace_once(const DeviceScene& scene, const CameraPaths& camera, PathPool& pool, const SamplerSource& numbers,
+                               Techniques techniques)
 {
     const uint count = static_cast<uint>(settings_.paths);
     slots_ = 0;
     splats_.clear();
     photons_.clear();
     photon_vertices_.clear();
-    emit_light_subpaths_(count, scene.surfaces(), key, techniques, count, pool.rays, pool.paths, subpaths_, pool.active(), last_vertices_);
+    emit_light_subpaths_(count, scene.surfaces(), numbers, techniques, count, pool.rays, pool.paths, subpaths_, pool.active(), last_vertices_);
     pool.start(count);
     do {
         if (!has_room_for(slots_ + pool.items())) return false;
         pool.trace(scene);
-        shade_light_subpath_(pool.items(), scene.surfaces(), camera.camera(), camera.filter(), key, settings_.rules, techniques, count,
+        shade_light_subpath_(pool.items(), scene.surfaces(), camera.camera(), camera.filter(), numbers, settings_.rules, techniques, count,
                              static_cast<uint>(slots_), pool.hits, pool.active(), pool.active_count(), pool.rays, pool.paths, subpaths_,
                              vertices_, links_, last_vertices_, splats_.shadow_rays(), splats_.deposits, photon_deposits_, photon_vertex_deposits_,
                              pool.flags);
@@ -70,10 +71,11 @@ bool LightSubpaths::photons_complete()
     return false;
 }
 
-void LightSubpaths::trace(const DeviceScene& scene, const CameraPaths& camera, PathPool& pool, SamplerKey key, Techniques techniques)
+void LightSubpaths::trace(const DeviceScene& scene, const CameraPaths& camera, PathPool& pool, const SamplerSource& numbers,
+                               Techniques techniques)
 {
-    // Subpaths are a pure function of the key: where there was no room the same ones come again.
-    while (!trace_once(scene, camera, pool, key, techniques)) {
+    // Subpaths are a pure function of the numbers: where there was no room the same ones come again.
+    while (!trace_once(scene, camera, pool, numbers, techniques)) {
     }
 }
 

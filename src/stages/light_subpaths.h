@@ -26,10 +26,13 @@ public:
     LightSubpaths(Device& device, const DeviceScene& scene, const Camera& camera, const LightSubpathSettings& settings);
 
     // Traces one iteration's light subpaths.
-    void trace(const DeviceScene& scene, const CameraPaths& camera, PathPool& pool, SamplerKey key, Techniques techniques);
+    void trace(const DeviceScene& scene, const CameraPaths& camera, PathPool& pool, const SamplerSource& numbers, Techniques techniques);
 
     // Adds what the lens sees of them.
     void add_splats(Buffer<Vec3>& radiance) { splats_.add_to(radiance); }
+
+    LensSplats& splats() { return splats_; }
+    const LensSplats& splats() const { return splats_; }
 
     // Vertices lie in slots, bounce by bounce in path order, some of which are empty (links with rank 0).
     const Buffer<PathVertex>& vertices() const { return vertices_; }
@@ -45,7 +48,7 @@ public:
     void serialize(StateArchive& archive);
 
 private:
-    bool trace_once(const DeviceScene& scene, const CameraPaths& camera, PathPool& pool, SamplerKey key, Techniques techniques);
+    bool trace_once(const DeviceScene& scene, const CameraPaths& camera, PathPool& pool, const SamplerSource& numbers, Techniques techniques);
     void reserve_slots(std::size_t slots);
     bool has_room_for(std::size_t slots);
     bool photons_complete();

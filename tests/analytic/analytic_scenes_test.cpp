@@ -14,7 +14,7 @@ using namespace sundog::test;
 namespace {
 
 constexpr int replicates = 10;
-constexpr int tests_in_file = 96; // bounds the family for the Bonferroni correction below
+constexpr int tests_in_file = 106; // bounds the family for the Bonferroni correction below
 
 // The number after "answer:" in the scene's comment.
 double answer_of(const std::string& scene)
@@ -43,7 +43,7 @@ std::string name_of(const testing::TestParamInfo<Case>& info)
 {
     std::string name = info.param.scene + "_" + info.param.method;
     for (const auto& [key, value] : info.param.parameters)
-        if (key == "direct" || key == "kernel" || key == "radius_policy" || key == "sampler" || key == "lookup" || key == "connections") name += "_" + value;
+        if (key == "direct" || key == "kernel" || key == "radius_policy" || key == "sampler" || key == "lookup" || key == "connections" || key == "paths") name += "_" + value;
         else if (key == "final_gather") name += "_final_gather_" + value;
     for (char& c : name)
         if (c == '-') c = '_';
@@ -56,8 +56,11 @@ TEST_P(AnalyticScenes, MeanIsTheAnswer)
 {
     const Case& c = GetParam();
     RenderRequest request{c.method, 16, c.parameters};
-    request.parameters.emplace("sampler", "independent");
-    if (c.method != "path") request.parameters.emplace("photons", "8192");
+    if (c.method == "pssmlt")
+        request.parameters.insert({{"seeds", "8192"}, {"chains", "4096"}});
+    else
+        request.parameters.emplace("sampler", "independent");
+    if (c.method != "path" && c.method != "pssmlt") request.parameters.emplace("photons", "8192");
     const Estimate estimate = estimate_image_mean(load_test_scene("analytic/" + c.scene + ".xml"), request, replicates);
     const double answer = answer_of(c.scene);
     // Two-sided, 1% for the whole file. Float rounding of the answer and of sums: 2e-5.
@@ -124,6 +127,15 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"sphere-light", "upg", {}}, Case{"point-over-plane", "upg", {}}, Case{"glass-in-white", "upg", {}},
                     Case{"collimated-beam", "upg", {}}),
     name_of);
+
+// Chains' states lie on the same paths.
+INSTANTIATE_TEST_SUITE_P(Metropolis, AnalyticScenes,
+                         testing::Values(Case{"furnace", "pssmlt", {}}, Case{"sphere-light", "pssmlt", {}}, Case{"glass-in-white", "pssmlt", {{"paths", "path"}}}), name_of);
+INSTANTIATE_TEST_SUITE_P(LongMetropolis, AnalyticScenes,
+                         testing::Values(Case{"furnace", "pssmlt", {{"paths", "path"}}}, Case{"sphere-furnace", "pssmlt", {}}, Case{"parallel-light", "pssmlt", {}},
+                                         Case{"point-over-plane", "pssmlt", {{"paths", "path"}}}, Case{"glass-in-white", "pssmlt", {}},
+                                         Case{"orthographic-plane", "pssmlt", {}}, Case{"collimated-beam", "pssmlt", {}}),
+                         name_of);
 
 // No vertex is regularized in them, or none should be.
 INSTANTIATE_TEST_SUITE_P(Regularized, AnalyticScenes,

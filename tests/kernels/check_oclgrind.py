@@ -28,7 +28,7 @@ SMALL_TESTS = [
 ]
 
 # Each with what it is asked for beside its image.
-METHODS = [["path"], ["ptracer"], ["pppm"], ["sppm"], ["photonmapper"], ["bdpt", "-p", "connections=resampled"], ["vcm"], ["upg"], ["psr", "-p", "paths=bdpt"], ["sppm", "--errors"], ["ppm", "--errors"], ["appm", "--errors"],
+METHODS = [["path"], ["ptracer"], ["pppm"], ["sppm"], ["photonmapper"], ["bdpt", "-p", "connections=resampled"], ["vcm"], ["pssmlt", "-p", "seeds=500"], ["upg"], ["psr", "-p", "paths=bdpt"], ["sppm", "--errors"], ["ppm", "--errors"], ["appm", "--errors"],
            ["photonmapper", "-p", "maps=fresh", "-p", "lookup=nearest", "--errors"]]
 
 # A diffuse floor, a glass and a metal ball, every kind of area light and a point light.

@@ -41,7 +41,7 @@ public:
           light_(shared_device(), scene_, camera_, {camera_paths_.count(), camera_paths_.count(), {max_depth, 2}, sampler, true, false}),
           subpaths_(shared_device(), scene_, camera_, camera_paths_.count(), {max_depth, 2}, sampler, true, false),
           pool_(shared_device(), scene_, camera_paths_.count()),
-          connections_(shared_device(), scene_, camera_paths_.count(), {max_depth, 2}, make_own_connections(shared_device(), camera_paths_.count())),
+          connections_(shared_device(), scene_, camera_paths_.count(), {max_depth, 2}, make_own_connections(shared_device(), camera_paths_.count(), sampler)),
           drop_(Kernel::from_source(shared_device(), "drop_other_techniques", "Drop", drop_other_techniques)),
           brought_(shared_device(), camera_paths_.count(), "connected radiance")
     {
@@ -96,12 +96,16 @@ Estimate connected(const Scene& scene, uint camera_edges, uint max_depth)
     return estimate_from(means);
 }
 
-// Light by paths of `first` to `last` edges.
+// Light by paths of `first` to `last` edges: what longer paths add to shorter ones of the same random numbers.
 Estimate light_of_lengths(const Scene& scene, int first, int last)
 {
-    const auto up_to = [&](int edges) { return estimate_image_mean(scene, {"path", 64, {{"sampler", "independent"}, {"max_depth", std::to_string(edges)}}}, replicates); };
-    const Estimate longer = up_to(last), shorter = up_to(first - 1);
-    return {longer.mean - shorter.mean, std::hypot(longer.standard_error, shorter.standard_error)};
+    const auto up_to = [&](int edges, int seed) {
+        const RenderRequest request{"path", 64, {{"sampler", "independent"}, {"max_depth", std::to_string(edges)}}};
+        return image_mean(render(scene, request, static_cast<std::uint64_t>(seed)));
+    };
+    std::vector<double> added;
+    for (int seed = 1; seed <= replicates; seed++) added.push_back(up_to(last, seed) - up_to(first - 1, seed));
+    return estimate_from(added);
 }
 
 struct Strategy {

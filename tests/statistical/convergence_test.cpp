@@ -73,7 +73,8 @@ TEST(Convergence, UnbiasedMethodsErrorFallsAsOneOverN)
 {
     for (const RenderRequest& request :
          {RenderRequest{"path", 0, {{"sampler", "independent"}}}, RenderRequest{"ptracer", 0, {{"sampler", "independent"}, {"photons", "1024"}}},
-          RenderRequest{"bdpt", 0, {{"sampler", "independent"}, {"photons", "1024"}}}}) {
+          RenderRequest{"bdpt", 0, {{"sampler", "independent"}, {"photons", "1024"}}},
+          RenderRequest{"pssmlt", 0, {{"paths", "path"}, {"seeds", "256"}}}}) {
         const Slope slope = mse_slope(request, 4, 5, 16);
         EXPECT_LT(slope.standard_error, 0.05) << request.method;
         EXPECT_NEAR(slope.value, -1.0, 3.5 * slope.standard_error) << request.method;

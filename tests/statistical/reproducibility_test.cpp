@@ -49,6 +49,6 @@ TEST_P(Reproducibility, AnotherSeedAnotherImage)
     EXPECT_NE(render_with_groups(64, 7).pixels, render_with_groups(64, 8).pixels);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Reproducibility, testing::Values("path", "ptracer", "pppm", "sppm", "cppm", "ppm", "appm", "photonmapper", "bdpt", "vcm", "upg", "psr"), [](const auto& method) { return method.param; });
+INSTANTIATE_TEST_SUITE_P(Methods, Reproducibility, testing::Values("path", "ptracer", "pppm", "sppm", "cppm", "ppm", "appm", "photonmapper", "bdpt", "vcm", "upg", "psr", "pssmlt"), [](const auto& method) { return method.param; });
 
 } // namespace
