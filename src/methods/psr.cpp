@@ -3,6 +3,7 @@
 // being mollified to a cone that narrows from iteration to iteration.
 #include "methods/bidirectional.h"
 #include "methods/path_tracing.h"
+#include "methods/primary_sample_metropolis.h"
 
 namespace sundog
 {
@@ -12,20 +13,32 @@ namespace
 ParameterSpec paths_spec()
 {
     return {"paths", ParameterType::choice, "path", "",
-            "What is regularized: path tracing, or bidirectional path tracing where none of its techniques finds a path.", 0, 0, {"path", "bdpt"}};
+            "What is regularized: path tracing; bidirectional path tracing where none of its techniques finds a path; or the paths of path, made by "
+            "Markov chains as in pssmlt.",
+            0, 0, {"path", "bdpt", "pssmlt"}};
 }
 
-void refuse_light_subpaths(const Parameters& parameters)
+// Parameters that mean something for one choice of `paths` alone.
+void refuse_parameters_of_others(const Parameters& parameters)
 {
-    for (const char* name : {"photons", "connections", "picks"})
-        if (parameters.is_set(name)) parameters.refuse(name, std::string(name) + " is for light subpaths; use -p paths=bdpt");
+    const std::string paths = parameters.text("paths");
+    const auto belongs_to = [&](const char* owner, const char* what, std::initializer_list<const char*> names) {
+        for (const char* name : names)
+            if (paths != owner && parameters.is_set(name)) parameters.refuse(name, std::string(name) + " is for " + what + "; use -p paths=" + owner);
+    };
+    belongs_to("bdpt", "light subpaths", {"photons", "connections", "picks"});
+    belongs_to("pssmlt", "Markov chains", {"chains", "large_step", "seeds"});
+    if (paths != "pssmlt") return;
+    for (const char* name : {"sampler", "spectral"})
+        if (parameters.is_set(name)) parameters.refuse(name, std::string("Markov chains have no ") + name + "; use -p paths=path or bdpt");
 }
 
 std::unique_ptr<Method> create(RenderContext& context, const Parameters& parameters)
 {
+    refuse_parameters_of_others(parameters);
     const RegularizationSchedule schedule(parameters);
+    if (parameters.text("paths") == "pssmlt") return make_primary_sample_metropolis(context, parameters, schedule);
     if (parameters.text("paths") == "bdpt") return make_bidirectional(context, parameters, {true, PhotonUse::none}, schedule);
-    refuse_light_subpaths(parameters);
     return make_path_tracing(context, parameters, schedule);
 }
 
@@ -37,7 +50,9 @@ const MethodRegistration registration({
     .error_model = ErrorModel::none,
     .description = "Path tracing that finds the light of points and directions in mirrors and through glass too, by mollifying specular directions "
                    "less and less. Where path is black and lamps have no area; lamps that have one it treats as path does.",
-    .parameters = joined(joined(joined({paths_spec()}, RegularizationSchedule::specs()), bidirectional_specs()), connection_specs({"own", "resampled"})),
+    .parameters = joined(joined(joined(joined({paths_spec()}, RegularizationSchedule::specs()), bidirectional_specs()),
+                                connection_specs({"own", "resampled"})),
+                         chain_specs()),
     .create = create,
 });
 

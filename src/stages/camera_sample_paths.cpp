@@ -12,7 +12,7 @@ public:
     CameraSamplePaths(Device& device, const DeviceScene& scene, const Camera& camera, const PixelFilter& filter,
                       const PrimarySampleSettings& settings)
         : camera_(CameraPaths::anywhere(device, camera, filter, SamplerKind::chain, settings.chains)),
-          tracer_(device, scene, settings.chains, settings.rules, SamplerKind::chain),
+          tracer_(device, scene, settings.chains, settings.rules, SamplerKind::chain, settings.regularized),
           add_camera_contributions_(device, "add_camera_contributions", "Sum contributions"),
           contributions_(device, settings.chains, "contributions")
     {
@@ -21,7 +21,7 @@ public:
     const Buffer<float>& trace(const DeviceScene& scene, PathPool& pool, MarkovChains& chains) override
     {
         camera_.start(scene, pool, chains.numbers());
-        tracer_.trace(scene, camera_, pool, chains.numbers());
+        tracer_.trace(scene, camera_, pool, chains.numbers(), regularization_);
         chains.count_used_numbers(ChainStream::camera, pool.paths);
         contributions_.fill(0.0f);
         add_camera_contributions_(camera_.count(), camera_.radiance, static_cast<uint>(camera_.count()), contributions_);

@@ -20,6 +20,12 @@ void ChainRadiance::add_to(Buffer<Vec3>& film_radiance, double factor)
     factor_ = factor;
 }
 
+void ChainRadiance::settle(double factor, Buffer<Vec3>& film_radiance)
+{
+    add_to(film_radiance, factor);
+    sum_.upload(std::vector<DirectSum>(sum_.size()));
+}
+
 std::vector<Vec3> ChainRadiance::correction(double factor) const
 {
     const std::vector<DirectSum> sums = sum_.download(), corrections = correction_.download();

@@ -20,6 +20,11 @@ public:
     // Adds it, times the factor as known now, to the film's radiance, and clears it.
     void add_to(Buffer<Vec3>& film_radiance, double factor);
 
+    // Nothing that was added so far depends on factors to come: `factor` is its last one. film_radiance: stays as it is.
+    void settle(double factor, Buffer<Vec3>& film_radiance);
+
+    double factor() const { return factor_; } // of the last iteration
+
     // Sum over iterations, by pixel, of what would have been added with `factor` in place of those that were known: the film's mean
     // lacks it. Waits.
     std::vector<Vec3> correction(double factor) const;

@@ -20,6 +20,7 @@ public:
 
     bool has_room_for(std::size_t splats) const { return count_ + splats <= splats_.size(); }
     void reserve(std::size_t splats); // so many more
+    void clear() { count_ = 0; }
 
     // Of samples numbered first_sample + chain (stages/markov_chains.h): the radiance of each one's camera path, and the splats of
     // each one's light subpath. There has to be room.

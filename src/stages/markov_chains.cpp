@@ -81,6 +81,13 @@ bool MarkovChains::start(std::size_t seeds, const std::function<const Buffer<flo
     return true;
 }
 
+void MarkovChains::forget()
+{
+    reference_ = independent_sum_ = 0.0;
+    independent_count_ = 0;
+    weights_.upload(std::vector<SampleWeight>(weights_.size()));
+}
+
 SampleWeighting MarkovChains::weighting() const
 {
     return {static_cast<float>(reference_), static_cast<float>(settings_.large_step)};

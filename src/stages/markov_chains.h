@@ -39,6 +39,9 @@ public:
     bool start(std::size_t seeds, const std::function<const Buffer<float>&()>& evaluate);
     bool started() const { return reference_ > 0.0; }
 
+    // Before another start(), where contributions become others: states and mean() so far mean nothing then.
+    void forget();
+
     // Proposes a step of every chain, numbered from 0 for the whole render.
     void propose(std::uint64_t step);
 

@@ -1,6 +1,7 @@
 // Light transport as a function of primary samples: what the numbers that Markov chains propose contribute to the film.
 #pragma once
 
+#include "shared/regularization.h"
 #include "stages/chain_splats.h"
 
 #include <memory>
@@ -12,6 +13,7 @@ struct PrimarySampleSettings {
     std::size_t chains = 0;
     std::size_t pixels = 0; // of the film
     PathRules rules{};
+    bool regularized = false;
 };
 
 class PrimarySamplePaths
@@ -23,11 +25,17 @@ public:
     // (kernels/math/scalar_contribution.h), by chain.
     virtual const Buffer<float>& trace(const DeviceScene& scene, PathPool& pool, MarkovChains& chains) = 0;
 
+    // For the paths to come, where they are regularized.
+    void regularize(Regularization regularization) { regularization_ = regularization; }
+
     // How many splats they have, and leaves them as those of samples first_sample + chain.
     virtual std::size_t splat_count() const = 0;
     virtual void leave_splats(uint first_sample, ChainSplats& splats) const = 0;
 
     virtual void serialize(StateArchive&) {}
+
+protected:
+    Regularization regularization_{};
 };
 
 // Camera paths with next-event estimation, as those of path.

@@ -96,6 +96,8 @@ const UsageCase cases[] = {
      {"render", "scene.xml", "-m", "vcm", "-p", "connections=none", "-p", "merging=false"},
      {"vcm cannot do without both connections and merging"}},
     {"light_subpaths_of_paths", {"render", "scene.xml", "-m", "psr", "-p", "photons=100"}, {"photons is for light subpaths", "use -p paths=bdpt"}},
+    {"chains_of_paths", {"render", "scene.xml", "-m", "psr", "-p", "chains=100"}, {"chains is for Markov chains", "use -p paths=pssmlt"}},
+    {"sampler_of_chains", {"render", "scene.xml", "-m", "psr", "-p", "paths=pssmlt", "-p", "sampler=sobol"}, {"Markov chains have no sampler"}},
     {"angle_of_nothing", {"render", "scene.xml", "-m", "psr", "-p", "angle=0"}, {"angle"}},
     {"policy_of_ppm", {"render", "scene.xml", "-m", "ppm", "-p", "radius_policy=fixed"}, {"radius_policy=local", "-m pppm"}},
     {"light_choice_of_photons",

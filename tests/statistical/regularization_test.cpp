@@ -116,6 +116,19 @@ TEST(Regularization, OfBdptFindsAllLightOfALampInGlass)
     expect_light_of_photons("bdpt", 48);
 }
 
+// Chains start anew whenever the angle narrows, after 1, 2, 4, 8 iterations: with an angle that stays the mean does.
+TEST(Regularization, OfMarkovChainsIsThatOfTheirPaths)
+{
+    const Scene scene = MirroredPoint::scene();
+    const double quantile = student_quantile(replicates - 1, 0.005);
+    const Estimate paths = estimate_image_mean(scene, {"psr", 4, fixed_angle("24")}, replicates);
+    const Estimate chains = estimate_image_mean(
+        scene, {"psr", 7, {{"paths", "pssmlt"}, {"chains", "1024"}, {"seeds", "8192"}, {"max_depth", "6"}, {"angle", "24"}, {"rate", "0"}}}, replicates);
+    const double error = std::hypot(paths.standard_error, chains.standard_error);
+    EXPECT_NEAR(chains.mean, paths.mean, quantile * error);
+    EXPECT_LT(error, 0.02 * paths.mean);
+}
+
 TEST(LongRegularization, OfPathFindsAllLightOfALampInGlass)
 {
     expect_light_of_photons("path", 160);
