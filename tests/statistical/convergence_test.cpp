@@ -69,12 +69,20 @@ Slope mse_slope(const RenderRequest& request, std::uint64_t first, int doublings
     return {fit(-1), spread.standard_error * (seeds - 1)};
 }
 
+// Of neighbouring states that are alike the mean's error falls so only when there are many more than are alike.
+TEST(LongConvergence, MarkovChainsErrorFallsAsOneOverN)
+{
+    const Slope slope = mse_slope({"pssmlt", 0, {{"paths", "path"}, {"seeds", "256"}}}, 128, 4, 12);
+    EXPECT_LT(slope.standard_error, 0.05);
+    EXPECT_NEAR(slope.value, -1.0, 3.5 * slope.standard_error);
+}
+
 TEST(Convergence, UnbiasedMethodsErrorFallsAsOneOverN)
 {
     for (const RenderRequest& request :
          {RenderRequest{"path", 0, {{"sampler", "independent"}}}, RenderRequest{"ptracer", 0, {{"sampler", "independent"}, {"photons", "1024"}}},
           RenderRequest{"bdpt", 0, {{"sampler", "independent"}, {"photons", "1024"}}},
-          RenderRequest{"pssmlt", 0, {{"paths", "path"}, {"seeds", "256"}}}}) {
+          RenderRequest{"upg", 0, {{"sampler", "independent"}, {"photons", "1024"}}}}) {
         const Slope slope = mse_slope(request, 4, 5, 16);
         EXPECT_LT(slope.standard_error, 0.05) << request.method;
         EXPECT_NEAR(slope.value, -1.0, 3.5 * slope.standard_error) << request.method;
