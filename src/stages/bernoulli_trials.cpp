@@ -9,7 +9,9 @@ namespace sundog
 namespace
 {
 
-// Side by side of one pair, at most: those after the first success are made in vain.
+// Few waiting pairs make several trials each side by side, to keep a device busy and rounds few; those after the first success
+// are made in vain.
+constexpr std::size_t rays_of_a_short_round = 16384;
 constexpr std::size_t most_trials_a_pair = 64;
 
 } // namespace
@@ -39,7 +41,7 @@ void BernoulliTrials::run(const DeviceScene& scene, const ConnectedSubpaths& sub
 std::size_t BernoulliTrials::run_round(const DeviceScene& scene, const ConnectedSubpaths& subpaths, const ConnectedPairs& pairs,
                                        std::size_t waiting, float radius)
 {
-    const std::size_t per_pair = std::clamp<std::size_t>(rays_.size() / (4 * waiting), 1, most_trials_a_pair);
+    const std::size_t per_pair = std::clamp<std::size_t>(std::min(rays_of_a_short_round, rays_.size()) / waiting, 1, most_trials_a_pair);
     const std::size_t rays = waiting * per_pair;
     const uint waiting_now = static_cast<uint>(waiting), each = static_cast<uint>(per_pair);
     propose_trials_(rays, scene.surfaces(), subpaths.key, rules_, radius, waiting_now, each, waiting_, pairs.pairs,
