@@ -21,7 +21,7 @@ __kernel void list_near_photons(PhotonGrid grid, __global const uint* restrict c
     for (uint r = 0u; r < run_count; ++r) {
         for (uint i = runs[r].begin; i < runs[r].end; i += 8u) {
             int lanes = near_lanes(streams, slots, grid.stride, runs[r], i, position, radius);
-            for (; lanes != 0; lanes &= lanes - 1, ++place) {
+            for (; lanes != 0 && place < end; lanes &= lanes - 1, ++place) {
                 const VertexPair pair = {path, slots[i + (uint)first_lane(lanes)]};
                 if (place - window < capacity) pairs[place - window] = pair; // unsigned: also below the window
             }
