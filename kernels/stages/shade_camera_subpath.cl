@@ -75,7 +75,8 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SAMPLER_PA
     const SurfaceView scene = SURFACE_VIEW;
     PathState path = paths[index];
     const float3 throughput = unpack(path.throughput);
-    techniques = techniques_at(techniques, path.depth > 1u && path.pdf_w != PDF_DELTA);
+    // Not into the argument, which the work-items of a group may share.
+    const Techniques here = techniques_at(techniques, path.depth > 1u && path.pdf_w != PDF_DELTA);
     const Hit hit = hits[index];
     const Ray ray = rays[index];
     PathWeights weights = subpaths[index].weights;
@@ -87,7 +88,7 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SAMPLER_PA
         return;
     }
     const Surface surface = surface_at(&scene, ray, hit);
-    weights = arriving_weights(&camera, techniques, weights, path.depth, &surface, hit.t);
+    weights = arriving_weights(&camera, here, weights, path.depth, &surface, hit.t);
     const float3 emitted = weighted_emission(&scene, &surface, &path, weights, ray, hit.t);
     if (!is_black(emitted)) radiance[index] = pack(unpack(radiance[index]) + throughput * emitted);
     if (path.depth >= rules.max_depth) return;
@@ -100,13 +101,13 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SAMPLER_PA
     disperse(camera_hero(&scene, key, index), &path, &scattering);
     uint flag = PATH_ENDED;
     if (can_be_joined(&scattering)) {
-        vertices[index] = make_vertex(&surface, &scattering, throughput, path.depth, weights, techniques.merge, path.eta_scale);
+        vertices[index] = make_vertex(&surface, &scattering, throughput, path.depth, weights, here.merge, path.eta_scale);
         flag |= PATH_JOINS;
         if (path.depth == 1u || path.pdf_w != PDF_DELTA) path.flags |= PATH_CONNECTABLE;
-        if (techniques.connect > 0.0f) {
+        if (here.connect > 0.0f) {
             Ray shadow_ray;
             shadow_radiance[index] =
-                pack(throughput * connect_to_light(&scene, &surface, &scattering, weights, techniques, words, &shadow_ray));
+                pack(throughput * connect_to_light(&scene, &surface, &scattering, weights, here, words, &shadow_ray));
             shadow_rays[index] = shadow_ray;
         }
     } else if (REGULARIZED && !(path.flags & PATH_CONNECTABLE) && path.scattered > 0u && is_specular(&scattering)) {
@@ -118,7 +119,7 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SAMPLER_PA
     Ray next;
     if (continue_camera_path(&surface, &scattering, rules, &sampler, &path, &next)) {
         next.horizon = 0u; // the chance of a light must be the same in all weights
-        subpaths[index].weights = weights_along(weights, techniques, &surface, &scattering, path.pdf_w, unpack(next.direction));
+        subpaths[index].weights = weights_along(weights, here, &surface, &scattering, path.pdf_w, unpack(next.direction));
         rays[index] = next;
         paths[index] = path;
         flag |= PATH_ALIVE;
