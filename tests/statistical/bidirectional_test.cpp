@@ -11,17 +11,9 @@ using namespace sundog::test;
 namespace
 {
 
-Scene glass_box()
-{
-    Scene scene = cornell_box(32);
-    const uint glass = add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}});
-    scene.shapes.push_back(make_sphere({.4f, -.6f, .3f}, .4f, glass));
-    return scene;
-}
-
 Image render_glass_box(const std::string& method, const std::map<std::string, std::string>& parameters = {})
 {
-    return render(glass_box(), {method, 3, parameters}, 5);
+    return render(glass_box(32), {method, 3, parameters}, 5);
 }
 
 TEST(Bidirectional, VcmWithoutMergingIsBdptBitForBit)
@@ -48,7 +40,7 @@ TEST(Bidirectional, LightSubpathsNeedNotBeOneAPixel)
     std::vector<Estimate> estimates;
     for (const char* photons : {"100", "1024", "5000"})
         estimates.push_back(
-            estimate_image_mean(glass_box(), {"vcm", 16, {{"photons", photons}, {"sampler", "independent"}, {"radius", "0.01"}}}, 12));
+            estimate_image_mean(glass_box(32), {"vcm", 16, {{"photons", photons}, {"sampler", "independent"}, {"radius", "0.01"}}}, 12));
     for (const Estimate& e : estimates) {
         const double error = std::hypot(e.standard_error, estimates[1].standard_error);
         EXPECT_NEAR(e.mean, estimates[1].mean, student_quantile(11, 0.005 / 2) * error);

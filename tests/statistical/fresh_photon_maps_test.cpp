@@ -19,13 +19,6 @@ using std::numbers::pi;
 namespace
 {
 
-Scene glass_box(int size)
-{
-    Scene scene = cornell_box(size);
-    scene.shapes.push_back(make_sphere({.4f, -.6f, .3f}, .4f, add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}})));
-    return scene;
-}
-
 RenderRequest request(const std::string& maps, std::uint64_t iterations, const std::map<std::string, std::string>& more = {})
 {
     RenderRequest r{"photonmapper",
@@ -44,17 +37,6 @@ RenderSettings settings_of(const RenderRequest& r, std::uint64_t seed)
     return settings;
 }
 
-// Over the image's lower half: the lamp is in the upper one, and its edges are all the noise there.
-Estimate lower_half(const Scene& scene, const RenderRequest& r, int seeds)
-{
-    std::vector<double> means;
-    for (int seed = 1; seed <= seeds; seed++) {
-        const Image image = render(scene, r, static_cast<std::uint64_t>(seed));
-        means.push_back(window_mean(image, 0, image.height / 2, image.width, image.height));
-    }
-    return estimate_from(means);
-}
-
 // The first iteration has the map that one map would be, and those of all are as good as maps of other seeds.
 TEST(FreshPhotonMaps, MeanIsThatOfOneMapOverSeeds)
 {
@@ -63,34 +45,12 @@ TEST(FreshPhotonMaps, MeanIsThatOfOneMapOverSeeds)
     for (const char* lookup : {"radius", "nearest"}) {
         SCOPED_TRACE(lookup);
         const std::map<std::string, std::string> parameters{{"lookup", lookup}, {"sampler", "independent"}};
-        const Estimate fresh = lower_half(scene, request("fresh", 8, parameters), 6),
-                       one = lower_half(scene, request("one", 4, parameters), 16);
+        const Estimate fresh = estimate_lower_half(scene, request("fresh", 8, parameters), 6),
+                       one = estimate_lower_half(scene, request("one", 4, parameters), 16);
         const double error = std::hypot(fresh.standard_error, one.standard_error);
         EXPECT_NEAR(fresh.mean, one.mean, student_quantile(5, 0.005 / 2) * error);
         EXPECT_LT(error, 0.02 * one.mean);
     }
-}
-
-// The deviation over seeds relative to the mean.
-double noise_of(const Scene& scene, const RenderRequest& r)
-{
-    constexpr int seeds = 6;
-    std::vector<Image> images;
-    for (std::uint64_t seed = 1; seed <= seeds; seed++) images.push_back(render(scene, r, seed));
-    double variance = 0.0, mean = 0.0;
-    for (int y = 0; y < images[0].height; y++)
-        for (int x = 0; x < images[0].width; x++) {
-            double sum = 0.0, squares = 0.0;
-            for (const Image& image : images) {
-                const double value = static_cast<double>(image.at(x, y, 1));
-                sum += value;
-                squares += value * value;
-            }
-            mean += sum / seeds;
-            variance += (squares - sum * sum / seeds) / (seeds - 1);
-        }
-    const double pixels = static_cast<double>(images[0].width) * images[0].height;
-    return std::sqrt(variance / pixels) / (mean / pixels);
 }
 
 // All light by photons that are looked up at once. From 2 to 18 iterations the noise of independent maps falls to a third; over 256
@@ -100,9 +60,9 @@ TEST(FreshPhotonMaps, NoiseFallsWithIterations)
     const Scene scene = PointOverPlane{16, 1.5}.scene();
     const std::map<std::string, std::string> parameters{
         {"direct", "photons"}, {"photons", "1000"}, {"caustic_photons", "2048"}, {"caustic_radius", "0.25"}, {"sampler", "independent"}};
-    const double few = noise_of(scene, request("fresh", 2, parameters)), many = noise_of(scene, request("fresh", 18, parameters));
+    const double few = relative_noise(scene, request("fresh", 2, parameters)), many = relative_noise(scene, request("fresh", 18, parameters));
     EXPECT_NEAR(many / few, 1.0 / 3.0, 0.1);
-    EXPECT_GT(noise_of(scene, request("one", 18, parameters)), 1.2 * few);
+    EXPECT_GT(relative_noise(scene, request("one", 18, parameters)), 1.2 * few);
 }
 
 TEST(FreshPhotonMaps, ResumedIsUninterrupted)

@@ -14,13 +14,6 @@ using namespace sundog::test;
 namespace
 {
 
-Scene glass_box(int size)
-{
-    Scene scene = cornell_box(size);
-    scene.shapes.push_back(make_sphere({.4f, -.6f, .3f}, .4f, add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}})));
-    return scene;
-}
-
 RenderRequest request(const std::string& method, std::uint64_t iterations, const std::map<std::string, std::string>& more = {})
 {
     RenderRequest r{method, iterations, {{"max_depth", "-1"}, {"sampler", "independent"}}};
@@ -30,50 +23,16 @@ RenderRequest request(const std::string& method, std::uint64_t iterations, const
 
 const std::map<std::string, std::string> progressive{{"photons", "4096"}, {"radius", "0.05"}, {"relaxation_progressive", "true"}};
 
-// Over the image's lower half: the lamp is in the upper one, and its edges are all the noise there.
-Estimate lower_half(const Scene& scene, const RenderRequest& r, int replicates)
-{
-    std::vector<double> means;
-    for (int seed = 1; seed <= replicates; seed++) {
-        const Image image = render(scene, r, static_cast<std::uint64_t>(seed));
-        means.push_back(window_mean(image, 0, image.height / 2, image.width, image.height));
-    }
-    return estimate_from(means);
-}
-
 // The bias is that of the box's edges, 2 r 0.21 as in agreement_test.cpp, seen after one reflection: 1% for r = 0.05.
 TEST(ProgressiveRelaxation, MeanIsThatOfPppm)
 {
     constexpr int replicates = 8;
     const Scene scene = glass_box(16);
-    const Estimate pppm = lower_half(scene, request("pppm", 16, {{"photons", "4096"}, {"radius", "0.02"}}), replicates);
-    const Estimate relaxed = lower_half(scene, request("photonmapper", 8, progressive), replicates);
+    const Estimate pppm = estimate_lower_half(scene, request("pppm", 16, {{"photons", "4096"}, {"radius", "0.02"}}), replicates);
+    const Estimate relaxed = estimate_lower_half(scene, request("photonmapper", 8, progressive), replicates);
     const double error = std::hypot(pppm.standard_error, relaxed.standard_error);
     EXPECT_NEAR(relaxed.mean, pppm.mean, student_quantile(replicates - 1, 0.005) * error + 0.01 * pppm.mean);
     EXPECT_LT(error, 0.02 * pppm.mean);
-}
-
-// The deviation over seeds relative to the mean, over the lower half.
-double noise_of(const Scene& scene, const RenderRequest& r)
-{
-    constexpr int seeds = 6;
-    std::vector<Image> images;
-    for (std::uint64_t seed = 1; seed <= seeds; seed++) images.push_back(render(scene, r, seed));
-    double variance = 0.0, mean = 0.0;
-    for (int y = images[0].height / 2; y < images[0].height; y++) {
-        for (int x = 0; x < images[0].width; x++) {
-            double sum = 0.0, squares = 0.0;
-            for (const Image& image : images) {
-                const double value = static_cast<double>(image.at(x, y, 1));
-                sum += value;
-                squares += value * value;
-            }
-            mean += sum / seeds;
-            variance += (squares - sum * sum / seeds) / (seeds - 1);
-        }
-    }
-    const double pixels = static_cast<double>(images[0].width) * (images[0].height - images[0].height / 2);
-    return std::sqrt(variance / pixels) / (mean / pixels);
 }
 
 // All light by photons that are looked up at once. The image is the mean of those of all iterations' maps, so that the noise of
@@ -86,11 +45,12 @@ TEST(ProgressiveRelaxation, NoiseFallsWithIterations)
     parameters["final_gather"] = "false";
     parameters["caustic_photons"] = "4096";
     parameters["caustic_radius"] = "0.05";
-    const double few = noise_of(scene, request("photonmapper", 2, parameters)),
-                 many = noise_of(scene, request("photonmapper", 24, parameters));
+    const auto noise_of = [&](const RenderRequest& r) { return relative_noise(scene, r, scene.film.height / 2); };
+    const double few = noise_of(request("photonmapper", 2, parameters)),
+                 many = noise_of(request("photonmapper", 24, parameters));
     parameters["relaxation_progressive"] = "false";
-    const double fixed = noise_of(scene, request("photonmapper", 24, parameters));
-    const double sppm = noise_of(scene, request("sppm", 24, {{"photons", "4096"}, {"radius", "0.05"}, {"direct", "photons"}}));
+    const double fixed = noise_of(request("photonmapper", 24, parameters));
+    const double sppm = noise_of(request("sppm", 24, {{"photons", "4096"}, {"radius", "0.05"}, {"direct", "photons"}}));
     EXPECT_LT(many, 0.4 * few);
     EXPECT_LT(many, 0.6 * fixed);
     EXPECT_LT(many, 0.8 * sppm) << "whose radii shrink";

@@ -17,14 +17,6 @@ namespace
 
 constexpr int replicates = 12;
 
-Scene glass_box(int size)
-{
-    Scene scene = cornell_box(size);
-    const uint glass = add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}});
-    scene.shapes.push_back(make_sphere({.4f, -.6f, .3f}, .4f, glass));
-    return scene;
-}
-
 // All pairs, by t tests that together fail in 1% of cases, and each mean known to `precision`.
 void expect_equal_means(const Scene& scene, const std::vector<RenderRequest>& requests, double precision)
 {

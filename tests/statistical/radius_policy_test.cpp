@@ -12,13 +12,6 @@ namespace sundog::test
 namespace
 {
 
-Scene glass_box()
-{
-    Scene scene = cornell_box(24);
-    scene.shapes.push_back(make_sphere({.4f, -.6f, .3f}, .4f, add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}})));
-    return scene;
-}
-
 // Tests are frequent, and radii wide, so that policies come to act within a few iterations.
 RenderRequest request(const std::string& method, const std::string& policy, const std::string& kernel)
 {
@@ -33,7 +26,7 @@ class RadiusPolicies : public testing::TestWithParam<std::string>
 
 TEST_P(RadiusPolicies, AreTheSameInEveryMethod)
 {
-    const auto pixels = [&](const std::string& method) { return render(glass_box(), request(method, GetParam(), "biweight"), 3).pixels; };
+    const auto pixels = [&](const std::string& method) { return render(glass_box(24), request(method, GetParam(), "biweight"), 3).pixels; };
     const auto by_pppm = pixels("pppm");
     EXPECT_EQ(pixels("appm"), by_pppm);
     EXPECT_EQ(pixels("cppm"), by_pppm);
@@ -44,7 +37,7 @@ TEST_P(RadiusPolicies, AreTheSameInEveryMethod)
 
 TEST_P(RadiusPolicies, DifferFromAFixedRadius)
 {
-    const auto image = [](const std::string& policy) { return render(glass_box(), request("pppm", policy, "uniform"), 3).pixels; };
+    const auto image = [](const std::string& policy) { return render(glass_box(24), request("pppm", policy, "uniform"), 3).pixels; };
     if (GetParam() != "fixed") {
         EXPECT_NE(image(GetParam()), image("fixed"));
     }
@@ -62,8 +55,8 @@ TEST_P(RadiusPolicies, ResumedIsUninterrupted)
     const auto iterate = [](RenderSession& session, int count) {
         for (int i = 0; i < count; i++) session.iterate();
     };
-    RenderSession first(glass_box(), shared_device(), settings), second(glass_box(), shared_device(), settings),
-        whole(glass_box(), shared_device(), settings);
+    RenderSession first(glass_box(24), shared_device(), settings), second(glass_box(24), shared_device(), settings),
+        whole(glass_box(24), shared_device(), settings);
     iterate(first, 4);
     first.save_checkpoint(folder / "c");
     second.resume(folder / "c");
@@ -79,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(All, RadiusPolicies, testing::Values("fixed", "schedule
 // The flux that sppm rescales is not the mean of iterations.
 TEST(RadiusPolicy, SppmRescalesFlux)
 {
-    EXPECT_NE(render(glass_box(), request("sppm", "local", "uniform"), 3).pixels,
-              render(glass_box(), request("pppm", "local", "uniform"), 3).pixels);
+    EXPECT_NE(render(glass_box(24), request("sppm", "local", "uniform"), 3).pixels,
+              render(glass_box(24), request("pppm", "local", "uniform"), 3).pixels);
 }
 
 } // namespace

@@ -10,11 +10,9 @@ using namespace sundog::test;
 
 namespace {
 
-Scene glass_box()
+Scene glass_box_by_wide_filter()
 {
-    Scene scene = cornell_box(48);
-    const uint glass = add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}});
-    scene.shapes.push_back(make_sphere({.4f, -.6f, .3f}, .4f, glass));
+    Scene scene = glass_box(48);
     scene.film.filter = {FilterKind::gaussian, 2.0f, 0.5f, 0, 0};
     return scene;
 }
@@ -28,7 +26,7 @@ protected:
         RenderSettings settings;
         settings.method = GetParam();
         settings.seed = seed;
-        RenderSession session(glass_box(), device, settings);
+        RenderSession session(glass_box_by_wide_filter(), device, settings);
         for (int i = 0; i < 5; i++) session.iterate();
         return session.image();
     }

@@ -56,4 +56,13 @@ inline Scene cornell_box(int size)
     return scene;
 }
 
+// The same with a glass ball, whose caustic is on the floor.
+inline Scene glass_box(int size)
+{
+    Scene scene = cornell_box(size);
+    const uint glass = add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}});
+    scene.shapes.push_back(make_sphere({.4f, -.6f, .3f}, .4f, glass));
+    return scene;
+}
+
 } // namespace sundog::test

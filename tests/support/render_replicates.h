@@ -80,6 +80,39 @@ inline Estimate estimate_image_mean(const Scene& scene, const RenderRequest& req
     return estimate_from(means);
 }
 
+// The same over the image's lower half. In a Cornell box the lamp is in the upper one, and its edges are all the noise there.
+inline Estimate estimate_lower_half(const Scene& scene, const RenderRequest& request, int count)
+{
+    std::vector<double> means;
+    for (int seed = 1; seed <= count; seed++) {
+        const Image image = render(scene, request, static_cast<std::uint64_t>(seed));
+        means.push_back(window_mean(image, 0, image.height / 2, image.width, image.height));
+    }
+    return estimate_from(means);
+}
+
+// Root mean square deviation of green over six seeds, relative to its mean; of the rows from first_row on.
+inline double relative_noise(const Scene& scene, const RenderRequest& request, int first_row = 0)
+{
+    constexpr int seeds = 6;
+    std::vector<Image> images;
+    for (std::uint64_t seed = 1; seed <= seeds; seed++) images.push_back(render(scene, request, seed));
+    double variance = 0.0, mean = 0.0;
+    for (int y = first_row; y < images[0].height; y++)
+        for (int x = 0; x < images[0].width; x++) {
+            double sum = 0.0, squares = 0.0;
+            for (const Image& image : images) {
+                const double value = static_cast<double>(image.at(x, y, 1));
+                sum += value;
+                squares += value * value;
+            }
+            mean += sum / seeds;
+            variance += (squares - sum * sum / seeds) / (seeds - 1);
+        }
+    const double pixels = static_cast<double>(images[0].width) * (images[0].height - first_row);
+    return std::sqrt(variance / pixels) / (mean / pixels);
+}
+
 // Quantile of Student's t distribution beyond which each tail holds `tail`, by bisection on its CDF (Simpson's rule).
 inline double student_quantile(double degrees, double tail)
 {
