@@ -70,9 +70,9 @@ static inline Sampler make_sampler(SamplerKey key, uint stream, uint sequence, u
 static inline ulong iteration_of(SamplerKey key) { return ((ulong)key.iteration_high << 32) | key.iteration_low; }
 
 // Camera paths: one sequence a pixel, one point an iteration.
-static inline Sampler camera_sampler(SamplerKey key, uint pixel, uint depth)
+static inline Sampler camera_sampler(SamplerKey key, uint path, uint depth)
 {
-    return make_sampler(key, STREAM_CAMERA, pixel, iteration_of(key), depth);
+    return make_sampler(key, STREAM_CAMERA, path, iteration_of(key), depth);
 }
 
 // Light paths: one sequence for all, continued from iteration to iteration.
@@ -95,9 +95,9 @@ static inline uint4 next_words(Sampler* sampler)
 #endif
 
 // The numbers of block `block` of a camera path's vertex alone.
-static inline uint4 camera_words(SamplerView numbers, uint pixel, uint depth, uint block)
+static inline uint4 camera_words(SamplerView numbers, uint path, uint depth, uint block)
 {
-    Sampler sampler = camera_sampler(numbers, pixel, depth);
+    Sampler sampler = camera_sampler(numbers, path, depth);
     sampler.block += block;
     return next_words(&sampler);
 }

@@ -23,19 +23,19 @@ static inline LensConnection connect_to_lens(const Camera* camera, __global cons
     result.shadow_ray = no_ray();
     const CameraConnection connection = connect_to_camera(camera, surface->position, u.xy);
     if (!connection.visible) return result;
-    float weight_x, weight_y;
-    const int x = choose_filter_pixel(filter, connection.film.x, u.z, &weight_x) - camera->crop_x;
-    const int y = choose_filter_pixel(filter, connection.film.y, u.w, &weight_y) - camera->crop_y;
-    if (x < 0 || y < 0 || x >= camera->crop_width || y >= camera->crop_height) return result;
-
     const float3 to_lens = connection.lens - surface->position;
     const float distance_squared = dot(to_lens, to_lens);
     result.direction = to_lens * rsqrt(distance_squared);
     const float3 f = bsdf_evaluate(scattering, surface, result.direction, CARRIES_FLUX) * irradiance_scale(surface, scattering->normal);
+    if (is_black(f)) return result;
+
+    float weight_x, weight_y;
+    const int x = choose_filter_pixel(filter, connection.film.x, u.z, &weight_x) - camera->crop_x;
+    const int y = choose_filter_pixel(filter, connection.film.y, u.w, &weight_y) - camera->crop_y;
+    if (x < 0 || y < 0 || x >= camera->crop_width || y >= camera->crop_height) return result;
     result.pdf_a = fabs(dot(result.direction, surface->geometric_normal)) / distance_squared * connection.importance;
     result.splat.radiance = pack(flux * f * (result.pdf_a * weight_x * weight_y));
     result.splat.pixel = path_of_pixel((uint2)((uint)x, (uint)y), camera->crop_width, camera->crop_height);
-    if (is_black(f)) return result;
 
     const float3 origin = ray_origin(surface, result.direction);
     result.shadow_ray.origin = pack(origin);

@@ -1,11 +1,10 @@
 // Sends gather rays out [Jensen 1996, section 4.2]: a camera path that asked for photons goes on by the same lobe. Reads
 // queries, hits and paths as shade_query_path left them; writes the next ray, the list of all paths, and which of them go on.
 // One work-item a camera path. Used by photonmapper.
-#include "scene/camera_rays.h"
 #include "scene/continue_path.h"
 #include "shared/photon.h"
 
-__kernel void begin_final_gather(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, uint width, uint height, uint count,
+__kernel void begin_final_gather(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, uint count,
                                  __global const GatherQuery* restrict queries, __global const Hit* restrict hits, __global Ray* restrict rays,
                                  __global PathState* restrict paths, __global uint* restrict active, __global uint* restrict flags)
 {
@@ -20,8 +19,7 @@ __kernel void begin_final_gather(SURFACE_PARAMETERS, SamplerKey key, PathRules r
     if (path.depth + 2u > rules.max_depth) return;
     const SurfaceView scene = SURFACE_VIEW;
     const Surface surface = surface_at(&scene, rays[index], hits[index]);
-    const uint2 pixel = pixel_of_path(index, width, height);
-    Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
+    Sampler sampler = camera_sampler(key, index, path.depth);
     const Scattering scattering = scattering_at(&scene, &surface, unit_float(next_words(&sampler).w));
     Ray next;
     if (!continue_camera_path(&surface, &scattering, rules, &sampler, &path, &next)) return;

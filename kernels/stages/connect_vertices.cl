@@ -1,7 +1,6 @@
 // Connects camera vertices to light vertices. Reads pairs; writes for each the shadow ray between its vertices and the radiance that it
 // brings if that is free, weighted against all other ways to make the path. One work-item a pair. Used by the bidirectional methods.
 #include "math/simd8.h"
-#include "scene/camera_rays.h"
 #include "scene/continue_path.h"
 #include "scene/lights.h"
 #include "scene/path_vertex.h"

@@ -11,7 +11,7 @@ __kernel void generate_camera_rays(Camera camera, __global const PixelFilter* re
     if (path >= count) return;
 
     const uint2 pixel = pixel_of_path(path, camera.crop_width, camera.crop_height);
-    Sampler sampler = camera_sampler(key, pixel.y * camera.crop_width + pixel.x, 0u);
+    Sampler sampler = camera_sampler(key, path, 0u);
     const float4 u = next_4d(&sampler);
     const float2 x = sample_filter(filter, u.x);
     const float2 y = sample_filter(filter, u.y);

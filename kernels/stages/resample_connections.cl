@@ -3,17 +3,10 @@
 // a vertex or none; writes each item's first place, and those pairs whose places lie in [window, window + capacity), with
 // NO_VERTEX where the slot chosen holds none. One work-item a chunk of FLAG_CHUNK items. Used by the bidirectional methods.
 #include "math/sampler.h"
-#include "scene/camera_rays.h"
 #include "shared/bidirectional.h"
 #include "shared/queue.h"
 
-static inline uint4 pick_words(SamplerKey key, uint path, uint depth, uint width, uint height)
-{
-    const uint2 pixel = pixel_of_path(path, width, height);
-    return camera_words(key, pixel.y * width + pixel.x, depth, BLOCK_SPARE);
-}
-
-__kernel void resample_connections(SamplerKey key, uint width, uint height, uint picks, uint slots, __global const uint* restrict active,
+__kernel void resample_connections(SamplerKey key, uint picks, uint slots, __global const uint* restrict active,
                                    __global const uint* restrict active_count, __global const uint* restrict flags,
                                    __global const PathVertex* restrict camera_vertices, __global const VertexLink* restrict links,
                                    uint chunks, __global const uint* restrict starts, uint window, uint capacity,
@@ -28,7 +21,7 @@ __kernel void resample_connections(SamplerKey key, uint width, uint height, uint
         if (!(flags[item] & PATH_JOINS)) continue;
         const uint path = active[item];
         uint words[4];
-        vstore4(pick_words(key, path, camera_vertices[path].depth, width, height), 0, words);
+        vstore4(camera_words(key, path, camera_vertices[path].depth, BLOCK_SPARE), 0, words);
         for (uint pick = 0u; pick < picks; ++pick, ++place) {
             const uint slot = mul_hi(words[pick], slots);
             const VertexPair pair = {path, links[slot].rank > 0u ? slot : NO_VERTEX};

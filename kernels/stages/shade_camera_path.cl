@@ -2,12 +2,11 @@
 // sampling. Reads hits of the active paths; adds emission to radiance; writes the light's shadow ray with
 // what it would bring, the next ray, and whether the path goes on. One work-item an active path. -D REGULARIZED: specular vertices
 // have light as well. Used by path and psr.
-#include "scene/camera_rays.h"
 #include "scene/continue_path.h"
 #include "scene/direct_light.h"
 #include "scene/mollified_light.h"
 
-__kernel void shade_camera_path(SURFACE_PARAMETERS, SAMPLER_PARAMETERS, PathRules rules, Regularization regularization, uint width, uint height, __global const Hit* restrict hits,
+__kernel void shade_camera_path(SURFACE_PARAMETERS, SAMPLER_PARAMETERS, PathRules rules, Regularization regularization, __global const Hit* restrict hits,
                                 __global const uint* restrict active, __global const uint* restrict active_count, __global Ray* restrict rays,
                                 __global PathState* restrict paths, __global Vec3* restrict radiance, __global Ray* restrict shadow_rays,
                                 __global Vec3* restrict shadow_radiance, __global uint* restrict flags)
@@ -33,9 +32,7 @@ __kernel void shade_camera_path(SURFACE_PARAMETERS, SAMPLER_PARAMETERS, PathRule
     if (!is_black(emitted)) radiance[index] = pack(unpack(radiance[index]) + throughput * emitted);
     if (path.depth >= rules.max_depth) return;
 
-    const uint2 pixel = pixel_of_path(index, width, height);
-    const uint sequence = pixel.y * width + pixel.x;
-    Sampler sampler = camera_sampler(SAMPLER_VIEW, sequence, path.depth);
+    Sampler sampler = camera_sampler(SAMPLER_VIEW, index, path.depth);
     const uint4 words = next_words(&sampler);
     Scattering scattering = scattering_at(&scene, &surface, unit_float(words.w));
     disperse(camera_hero(&scene, key, index), &path, &scattering);
@@ -44,7 +41,7 @@ __kernel void shade_camera_path(SURFACE_PARAMETERS, SAMPLER_PARAMETERS, PathRule
         shadow_radiance[index] = pack(throughput * sample_direct_light(&scene, &surface, &scattering, words, true, &shadow_ray));
         shadow_rays[index] = shadow_ray;
     } else if (REGULARIZED && path.scattered > 0u && is_specular(&scattering)) {
-        const float4 u = unit_float4(camera_words(SAMPLER_VIEW, sequence, path.depth, BLOCK_SPARE));
+        const float4 u = unit_float4(camera_words(SAMPLER_VIEW, index, path.depth, BLOCK_SPARE));
         Ray shadow_ray;
         shadow_radiance[index] = pack(sample_mollified_light(&scene, &surface, &scattering, path, regularization, words, u, &shadow_ray));
         shadow_rays[index] = shadow_ray;

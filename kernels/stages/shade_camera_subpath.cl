@@ -61,8 +61,8 @@ static inline float3 connect_to_light(const SurfaceView* scene, const Surface* s
     return f * light.radiance * (joint_weight(light_share, camera_share) * fabs(dot(light.direction, scattering->normal)));
 }
 
-__kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SAMPLER_PARAMETERS, PathRules rules, Techniques techniques, Regularization regularization, uint width,
-                                   uint height, __global const Hit* restrict hits, __global const uint* restrict active,
+__kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SAMPLER_PARAMETERS, PathRules rules, Techniques techniques,
+                                   Regularization regularization, __global const Hit* restrict hits, __global const uint* restrict active,
                                    __global const uint* restrict active_count, __global Ray* restrict rays,
                                    __global PathState* restrict paths, __global Subpath* restrict subpaths,
                                    __global Vec3* restrict radiance, __global Ray* restrict shadow_rays,
@@ -93,9 +93,7 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SAMPLER_PA
     if (!is_black(emitted)) radiance[index] = pack(unpack(radiance[index]) + throughput * emitted);
     if (path.depth >= rules.max_depth) return;
 
-    const uint2 pixel = pixel_of_path(index, width, height);
-    const uint sequence = pixel.y * width + pixel.x;
-    Sampler sampler = camera_sampler(SAMPLER_VIEW, sequence, path.depth);
+    Sampler sampler = camera_sampler(SAMPLER_VIEW, index, path.depth);
     const uint4 words = next_words(&sampler);
     Scattering scattering = scattering_at(&scene, &surface, unit_float(words.w));
     disperse(camera_hero(&scene, key, index), &path, &scattering);
@@ -111,7 +109,7 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SAMPLER_PA
             shadow_rays[index] = shadow_ray;
         }
     } else if (REGULARIZED && !(path.flags & PATH_CONNECTABLE) && path.scattered > 0u && is_specular(&scattering)) {
-        const float4 u = unit_float4(camera_words(SAMPLER_VIEW, sequence, path.depth, BLOCK_SPARE));
+        const float4 u = unit_float4(camera_words(SAMPLER_VIEW, index, path.depth, BLOCK_SPARE));
         Ray shadow_ray;
         shadow_radiance[index] = pack(sample_mollified_light(&scene, &surface, &scattering, path, regularization, words, u, &shadow_ray));
         shadow_rays[index] = shadow_ray;

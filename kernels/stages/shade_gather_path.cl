@@ -3,10 +3,9 @@
 // focused by such lobes were found in other ways. Reads hits of the active paths; writes queries (radius 0: none), the next ray
 // and whether the path goes on. One work-item an active path. Used by photonmapper.
 #include "density/photon_query.h"
-#include "scene/camera_rays.h"
 #include "scene/continue_path.h"
 
-__kernel void shade_gather_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, uint width, uint height, float radius,
+__kernel void shade_gather_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, float radius,
                                 __global const Hit* restrict hits, __global const uint* restrict active, __global const uint* restrict active_count,
                                 __global Ray* restrict rays, __global PathState* restrict paths, __global GatherQuery* restrict queries,
                                 __global LobeRecord* restrict query_lobes, __global uint* restrict flags)
@@ -20,8 +19,7 @@ __kernel void shade_gather_path(SURFACE_PARAMETERS, SamplerKey key, PathRules ru
     const SurfaceView scene = SURFACE_VIEW;
     PathState path = paths[index];
     const Surface surface = surface_at(&scene, rays[index], hit);
-    const uint2 pixel = pixel_of_path(index, width, height);
-    Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
+    Sampler sampler = camera_sampler(key, index, path.depth);
     Scattering scattering = scattering_at(&scene, &surface, unit_float(next_words(&sampler).w));
     disperse(camera_hero(&scene, key, index), &path, &scattering);
     if (is_black_side(&scattering)) return;

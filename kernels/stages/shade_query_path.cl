@@ -5,7 +5,6 @@
 // `narrow_query_share`. Emission met on the way is added to radiance: nothing else finds it. One work-item an
 // active path. Used by pppm and sppm.
 #include "density/photon_query.h"
-#include "scene/camera_rays.h"
 #include "scene/continue_path.h"
 #include "scene/direct_light.h"
 
@@ -24,7 +23,7 @@ static inline Continuation choose_continuation(const Scattering* scattering, flo
     return continuation;
 }
 
-__kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, uint width, uint height, float radius,
+__kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, float radius,
                                float narrow_query_share, __global const Hit* restrict hits,
                                __global const uint* restrict active, __global const uint* restrict active_count, __global Ray* restrict rays,
                                __global PathState* restrict paths, __global Vec3* restrict radiance, __global Ray* restrict shadow_rays,
@@ -56,8 +55,7 @@ __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rul
     if (!is_black(emitted)) radiance[index] = pack(unpack(radiance[index]) + throughput * emitted);
     if (path.depth >= rules.max_depth) return;
 
-    const uint2 pixel = pixel_of_path(index, width, height);
-    Sampler sampler = camera_sampler(key, pixel.y * width + pixel.x, path.depth);
+    Sampler sampler = camera_sampler(key, index, path.depth);
     const uint4 words = next_words(&sampler);
     Scattering scattering = scattering_at(&scene, &surface, unit_float(words.w));
     disperse(camera_hero(&scene, key, index), &path, &scattering);

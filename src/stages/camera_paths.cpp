@@ -1,15 +1,16 @@
 #include "stages/camera_paths.h"
 
-namespace sundog {
+namespace sundog
+{
 
-CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, uint width, uint height)
-    : radiance(device, static_cast<std::size_t>(width) * height, "radiance"), camera_(camera), width_(width), height_(height),
-      count_(radiance.size()), filter_(device, std::vector{filter}, "pixel filter")
+CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, std::size_t count)
+    : radiance(device, count, "radiance"), camera_(camera), count_(count), filter_(device, std::vector{filter}, "pixel filter")
 {
 }
 
-CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, const BuildOptions& surface_options)
-    : CameraPaths(device, camera, filter, static_cast<uint>(camera.crop_width), static_cast<uint>(camera.crop_height))
+CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler,
+                         const BuildOptions& surface_options)
+    : CameraPaths(device, camera, filter, static_cast<std::size_t>(camera.crop_width) * static_cast<std::size_t>(camera.crop_height))
 {
     BuildOptions first_hit_options = surface_options;
     use_camera(first_hit_options, camera);
@@ -22,7 +23,7 @@ CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter
 
 CameraPaths CameraPaths::anywhere(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, std::size_t count)
 {
-    CameraPaths paths(device, camera, filter, static_cast<uint>(count), 1u);
+    CameraPaths paths(device, camera, filter, count);
     paths.pixels = Buffer<uint>(device, count, "path pixels");
     BuildOptions options;
     use_camera(options, camera);
@@ -44,7 +45,8 @@ void CameraPaths::start(const DeviceScene& scene, PathPool& pool, const SamplerS
 
 void CameraPaths::record_first_hits(const DeviceScene& scene, PathPool& pool, std::uint64_t iteration, Buffer<FirstHitPixel>& first_hits)
 {
-    record_first_hits_(count_, scene.surfaces(), pool.rays, pool.hits, camera_, static_cast<uint>(count_), static_cast<uint>(iteration), first_hits);
+    record_first_hits_(count_, scene.surfaces(), pool.rays, pool.hits, camera_, static_cast<uint>(count_), static_cast<uint>(iteration),
+                       first_hits);
 }
 
 } // namespace sundog

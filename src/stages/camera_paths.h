@@ -6,7 +6,8 @@
 #include "stages/path_pool.h"
 #include "stages/sampling.h"
 
-namespace sundog {
+namespace sundog
+{
 
 // Specialises kernels that make camera rays or connect to the camera.
 inline void use_camera(BuildOptions& options, const Camera& camera)
@@ -15,10 +16,12 @@ inline void use_camera(BuildOptions& options, const Camera& camera)
 }
 
 // One path a pixel of the crop, or any number of paths all over it.
-class CameraPaths {
+class CameraPaths
+{
 public:
     // Keeps a reference to the camera, which may move from pass to pass.
-    CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, const BuildOptions& surface_options = {});
+    CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler,
+                const BuildOptions& surface_options = {});
 
     // `count` paths instead that start anywhere on the film, each at a pixel that its numbers name.
     static CameraPaths anywhere(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, std::size_t count);
@@ -33,17 +36,13 @@ public:
     Buffer<uint> pixels;   // of paths anywhere, by path; in the film's order
 
     std::size_t count() const { return count_; }
-    // How paths are numbered: as pixels of a film of this size; paths anywhere lie in one row.
-    uint width() const { return width_; }
-    uint height() const { return height_; }
     const Camera& camera() const { return camera_; }
     const Buffer<PixelFilter>& filter() const { return filter_; }
 
 private:
-    CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, uint width, uint height);
+    CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, std::size_t count);
 
     const Camera& camera_;
-    uint width_, height_;
     std::size_t count_;
     Buffer<PixelFilter> filter_;
     Kernel generate_camera_rays_;

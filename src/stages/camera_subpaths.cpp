@@ -17,11 +17,11 @@ CameraSubpaths::CameraSubpaths(Device& device, const DeviceScene& scene, const C
     shade_camera_subpath_ = Kernel(device, "shade_camera_subpath", "Shade camera subpaths", options);
 }
 
-void CameraSubpaths::shade(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, const SamplerSource& numbers, Techniques techniques,
-                           Regularization regularization)
+void CameraSubpaths::shade(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, const SamplerSource& numbers,
+                           Techniques techniques, Regularization regularization)
 {
-    shade_camera_subpath_(pool.items(), scene.surfaces(), camera.camera(), numbers, rules_, techniques, regularization, camera.width(), camera.height(),
-                          pool.hits, pool.active(), pool.active_count(), pool.rays, pool.paths, subpaths_, camera.radiance, shadow_.rays,
+    shade_camera_subpath_(pool.items(), scene.surfaces(), camera.camera(), numbers, rules_, techniques, regularization, pool.hits,
+                          pool.active(), pool.active_count(), pool.rays, pool.paths, subpaths_, camera.radiance, shadow_.rays,
                           shadow_.radiance, vertices, pool.flags);
     if (!connects_) return;
     shadow_.trace(scene, pool);

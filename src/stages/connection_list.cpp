@@ -15,8 +15,7 @@ class OwnConnections final : public ConnectionList
 {
 public:
     OwnConnections(Device& device, std::size_t paths, const BuildOptions& options)
-        : count_connections_(device, "count_connections", "Count connections", options),
-          scan_counts_(device, "scan_counts", "Scan counts"),
+        : count_connections_(device, "count_connections", "Count connections", options), scan_counts_(device, "scan_counts", "Scan counts"),
           list_connections_(device, "list_connections", "List connections", options),
           chunk_counts_(device, Compaction::chunks_of(paths), "connection counts"), total_(device, 1, "connections")
     {
@@ -63,10 +62,9 @@ public:
 
     void list(const ConnectedSubpaths& s, std::size_t window, Buffer<uint>& firsts, Buffer<VertexPair>& pairs) override
     {
-        resample_connections_(chunks_of(s.pool), s.key, s.camera.width(), s.camera.height(), picks_,
-                              static_cast<uint>(s.light_subpaths.slots()), s.pool.active(), s.pool.active_count(), s.pool.flags,
-                              s.camera_subpaths.vertices, s.light_subpaths.links(), chunks_of(s.pool), chunk_counts_,
-                              static_cast<uint>(window), static_cast<uint>(pairs.size()), firsts, pairs);
+        resample_connections_(chunks_of(s.pool), s.key, picks_, static_cast<uint>(s.light_subpaths.slots()), s.pool.active(),
+                              s.pool.active_count(), s.pool.flags, s.camera_subpaths.vertices, s.light_subpaths.links(), chunks_of(s.pool),
+                              chunk_counts_, static_cast<uint>(window), static_cast<uint>(pairs.size()), firsts, pairs);
     }
 
     float scale(const LightSubpaths& light) const override

@@ -19,13 +19,13 @@ void FinalGather::trace(const DeviceScene& scene, const CameraPaths& camera, con
 {
     const uint count = static_cast<uint>(camera.count());
     set_query_radius_(count, 0.0f, count, queries);
-    begin_final_gather_(count, scene.surfaces(), key, rules_, camera.width(), camera.height(), count, visible.queries, pool.hits, pool.rays,
-                        pool.paths, pool.active(), pool.flags);
+    begin_final_gather_(count, scene.surfaces(), key, rules_, count, visible.queries, pool.hits, pool.rays, pool.paths, pool.active(),
+                        pool.flags);
     pool.start(count);
     while (pool.keep_alive()) {
         pool.trace(scene);
-        shade_gather_path_(pool.items(), scene.surfaces(), key, rules_, camera.width(), camera.height(), radius, pool.hits, pool.active(),
-                           pool.active_count(), pool.rays, pool.paths, queries, lobes, pool.flags);
+        shade_gather_path_(pool.items(), scene.surfaces(), key, rules_, radius, pool.hits, pool.active(), pool.active_count(), pool.rays,
+                           pool.paths, queries, lobes, pool.flags);
     }
 }
 

@@ -16,8 +16,8 @@ void PathTracer::trace(const DeviceScene& scene, CameraPaths& camera, PathPool& 
                        Regularization regularization)
 {
     for (;;) {
-        shade_camera_path_(pool.items(), scene.surfaces(), numbers, rules_, regularization, camera.width(), camera.height(), pool.hits, pool.active(),
-                           pool.active_count(), pool.rays, pool.paths, camera.radiance, shadow_.rays, shadow_.radiance, pool.flags);
+        shade_camera_path_(pool.items(), scene.surfaces(), numbers, rules_, regularization, pool.hits, pool.active(), pool.active_count(),
+                           pool.rays, pool.paths, camera.radiance, shadow_.rays, shadow_.radiance, pool.flags);
         shadow_.trace(scene, pool);
         shadow_.add_unoccluded(pool, camera.radiance);
         if (!pool.keep_alive()) return;

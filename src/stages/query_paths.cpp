@@ -1,16 +1,20 @@
 #include "stages/query_paths.h"
 
-namespace sundog {
+namespace sundog
+{
 
-namespace {
+namespace
+{
 
 // Of paths at narrow lobes that ask for photons there rather than go on. Both kinds are needed, and neither is rare.
 constexpr float narrow_query_share = 0.5f;
 
 } // namespace
 
-QueryTracer::QueryTracer(Device& device, const DeviceScene& scene, std::size_t capacity, PathRules rules, bool direct_light, SamplerKind sampler)
-    : queries(device, capacity, "gather queries"), lobes(device, scene.has_lobes_to_evaluate() ? capacity : 1, "query lobes"), rules_(rules), direct_light_(direct_light), shadow_(device, scene, direct_light ? capacity : 1, true)
+QueryTracer::QueryTracer(Device& device, const DeviceScene& scene, std::size_t capacity, PathRules rules, bool direct_light,
+                         SamplerKind sampler)
+    : queries(device, capacity, "gather queries"), lobes(device, scene.has_lobes_to_evaluate() ? capacity : 1, "query lobes"),
+      rules_(rules), direct_light_(direct_light), shadow_(device, scene, direct_light ? capacity : 1, true)
 {
     BuildOptions options = scene.surface_options();
     use_sampler(options, sampler);
@@ -21,9 +25,9 @@ QueryTracer::QueryTracer(Device& device, const DeviceScene& scene, std::size_t c
 void QueryTracer::trace(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, SamplerKey key, float radius)
 {
     for (;;) {
-        shade_query_path_(pool.items(), scene.surfaces(), key, rules_, camera.width(), camera.height(), radius,
-                          scene.has_delta_lights() ? narrow_query_share : 0.0f, pool.hits, pool.active(), pool.active_count(), pool.rays,
-                          pool.paths, camera.radiance, shadow_.rays, shadow_.radiance, queries, lobes, pool.flags);
+        shade_query_path_(pool.items(), scene.surfaces(), key, rules_, radius, scene.has_delta_lights() ? narrow_query_share : 0.0f,
+                          pool.hits, pool.active(), pool.active_count(), pool.rays, pool.paths, camera.radiance, shadow_.rays,
+                          shadow_.radiance, queries, lobes, pool.flags);
         if (direct_light_) {
             shadow_.trace(scene, pool);
             shadow_.add_unoccluded(pool, camera.radiance);

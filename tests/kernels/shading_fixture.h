@@ -267,11 +267,7 @@ protected:
         EXPECT_EQ(query.flags, 0u) << "path " << path;
     }
 
-    PlainNumbers camera_numbers(uint path) const
-    {
-        const auto [x, y] = pixels_.at(path);
-        return PlainNumbers::camera(key_, static_cast<uint>(y * plain_.camera.crop_width + x));
-    }
+    PlainNumbers camera_numbers(uint path) const { return PlainNumbers::camera(key_, path); }
     PlainNumbers light_numbers(uint path) const { return PlainNumbers::light(key_, path, light_paths); }
 
     PlainScene plain_;

@@ -110,7 +110,7 @@ TEST_F(ConnectionStage, PicksAreEvenOverAllSlots)
     use_sampler(options, SamplerKind::independent);
     const Kernel count_flagged(device_, "count_flagged", "Count"), scan(device_, "scan_counts", "Scan"),
         list(device_, "resample_connections", "List", options);
-    constexpr uint picks = 3, width = 50, height = 20;
+    constexpr uint picks = 3;
     const uint slots = static_cast<uint>(links_.size());
     std::vector<double> chosen(40, 0.0), expected(40, 0.0);
     std::vector<uint> empty(2, 0);
@@ -120,7 +120,7 @@ TEST_F(ConnectionStage, PicksAreEvenOverAllSlots)
         count_flagged(chunks(), flags, count, PATH_JOINS, chunks(), counts);
         scan.launch_grouped(1, 1, counts, chunks(), 0u, total);
         ASSERT_EQ(total.read(0), joins());
-        list(chunks(), sampler_key(5, iteration), width, height, picks, slots, active, count, flags, vertices, links, chunks(), counts, 0u,
+        list(chunks(), sampler_key(5, iteration), picks, slots, active, count, flags, vertices, links, chunks(), counts, 0u,
              picks * joins(), firsts, pairs);
         const auto got = pairs.download();
         const auto first = firsts.download();

@@ -43,7 +43,6 @@ TEST_P(FinalGatherStages, DoAsPlainCode)
     start_camera_paths();
     activate_all(pixels_.size());
     const uint count = static_cast<uint>(pixels_.size());
-    const uint width = static_cast<uint>(plain_.camera.crop_width), height = static_cast<uint>(plain_.camera.crop_height);
     const auto queries = allocate<GatherQuery>(count);
     const auto lobes = allocate<LobeRecord>(1);
     std::vector<GatherQuery> asked, got;
@@ -52,15 +51,14 @@ TEST_P(FinalGatherStages, DoAsPlainCode)
         [&](std::size_t items) {
             if (!begun) {
                 asked = questions(hits_.download());
-                begin_(count, scene_.surfaces(), key_, rules(), width, height, count, upload(asked), hits_, rays_, paths_, active_, flags_);
+                begin_(count, scene_.surfaces(), key_, rules(), count, upload(asked), hits_, rays_, paths_, active_, flags_);
                 device_.finish();
                 const auto all = active_.download();
                 for (uint path = 0; path < count; ++path) ASSERT_EQ(all[path], path);
                 return;
             }
             Buffer<GatherQuery> cleared = upload(std::vector<GatherQuery>(count, GatherQuery{}));
-            shade_(items, scene_.surfaces(), key_, rules(), width, height, radius, hits_, active_, active_count_, rays_, paths_, cleared,
-                   lobes, flags_);
+            shade_(items, scene_.surfaces(), key_, rules(), radius, hits_, active_, active_count_, rays_, paths_, cleared, lobes, flags_);
             got = cleared.download();
         },
         [&](std::size_t item, uint path, const PlainVertex& vertex) {

@@ -13,11 +13,10 @@ TEST_P(ShadeCameraPath, DoesAsPlainCode)
 {
     start_camera_paths();
     const Kernel shade(device_, "shade_camera_path", "Shade", options_);
-    const Camera& camera = plain_.camera;
     follow_paths(
         [&](std::size_t items) {
-            shade(items, scene_.surfaces(), key_, rules(), Regularization{}, static_cast<uint>(camera.crop_width), static_cast<uint>(camera.crop_height),
-                  hits_, active_, active_count_, rays_, paths_, radiance_, shadow_rays_, shadow_radiance_, flags_);
+            shade(items, scene_.surfaces(), key_, rules(), Regularization{}, hits_, active_, active_count_, rays_, paths_, radiance_,
+                  shadow_rays_, shadow_radiance_, flags_);
         },
         [&](std::size_t item, uint path, const PlainVertex& vertex) {
             Doubt doubt;

@@ -21,12 +21,11 @@ protected:
         BuildOptions options = options_;
         options.defines.emplace_back("DIRECT_LIGHT", direct_light ? "1" : "0");
         const Kernel shade(device_, "shade_query_path", "Shade", options);
-        const Camera& camera = plain_.camera;
         follow_paths(
             [&](std::size_t items) {
                 queries.upload(std::vector<GatherQuery>(pixels_.size(), {{0, 0, 0}, untouched, {0, 0, 0}, 0, {0, 0, 0}, 0}));
-                shade(items, scene_.surfaces(), key_, rules(), static_cast<uint>(camera.crop_width), static_cast<uint>(camera.crop_height),
-                      radius, 0.0f, hits_, active_, active_count_, rays_, paths_, radiance_, shadow_rays_, shadow_radiance_, queries, lobes, flags_);
+                shade(items, scene_.surfaces(), key_, rules(), radius, 0.0f, hits_, active_, active_count_, rays_, paths_, radiance_,
+                      shadow_rays_, shadow_radiance_, queries, lobes, flags_);
                 got = queries.download();
             },
             [&](std::size_t item, uint path, const PlainVertex& vertex) {

@@ -2,13 +2,14 @@
 // f = reflectance (n + 2) / (2 pi) cos^n [Lafortune and Willems 1994]. Of the lobe: alpha_u is the exponent n.
 #ifndef SUNDOG_LOBE_PHONG_H
 #define SUNDOG_LOBE_PHONG_H
+#include "math/power.h"
 #include "math/warp.h"
 #include "scene/scattering.h"
 
 static inline float phong_power(const Scattering* scattering, float3 outgoing, float3 incoming)
 {
     const float3 mirrored = 2.0f * scattering->cos_o * scattering->normal - outgoing;
-    return pow(clamp(dot(mirrored, incoming), 0.0f, 1.0f), scattering->alpha_u);
+    return unit_power(clamp(dot(mirrored, incoming), 0.0f, 1.0f), scattering->alpha_u);
 }
 
 static inline float3 evaluate_phong(const Scattering* scattering, float3 outgoing, float3 incoming)
@@ -23,16 +24,16 @@ static inline float phong_pdf_w(const Scattering* scattering, float3 outgoing, f
     return (scattering->alpha_u + 1.0f) * (0.5f * INV_PI_F) * phong_power(scattering, outgoing, incoming);
 }
 
-// cos = u^(1 / (n + 1)); the sine from 1 - cos^2 = -expm1(2 ln(u) / (n + 1)), which has digits where n is large.
+// cos = u^(1 / (n + 1)); the sine from 1 - cos^2 = 1 - exp(2 ln(u) / (n + 1)), which has digits where n is large.
 static inline BsdfSample sample_phong(const Scattering* scattering, float3 outgoing, float2 u)
 {
     const float n = scattering->alpha_u;
-    const float log_cosine = log(fmax(1.0f - u.x, 1e-30f)) / (n + 1.0f);
-    const float cosine = exp(log_cosine), sine = sqrt(fmax(-expm1(2.0f * log_cosine), 0.0f)), phi = 2.0f * PI_F * u.y;
+    const float log_cosine = fast_log(1.0f - u.x) / (n + 1.0f);
+    const float cosine = fast_exp(log_cosine), sine = sqrt(one_minus_exp(2.0f * log_cosine)), phi = PI_F * (2.0f * u.y - 1.0f);
     const Frame frame = make_frame(normalize(2.0f * scattering->cos_o * scattering->normal - outgoing));
     BsdfSample sample;
-    sample.direction = to_world(frame, (float3)(sine * cos(phi), sine * sin(phi), cosine));
-    sample.pdf_w = fmax((n + 1.0f) * (0.5f * INV_PI_F) * exp(n * log_cosine), 1e-20f);
+    sample.direction = to_world(frame, (float3)(sine * native_cos(phi), sine * native_sin(phi), cosine));
+    sample.pdf_w = fmax((n + 1.0f) * (0.5f * INV_PI_F) * fast_exp(n * log_cosine), 1e-20f);
     sample.weight = scattering->reflectance * ((n + 2.0f) / (n + 1.0f) * fmax(dot(sample.direction, scattering->normal), 0.0f));
     sample.eta_scale = 1.0f;
     return sample;
