@@ -39,15 +39,13 @@ static inline int first_lane(int mask)
     return (int)popcount((uint)(~mask & (mask - 1)));
 }
 
-// Asks for 256 bytes that will be read soon. Nothing depends on it.
-static inline void prefetch256(__global const void* address)
+// Asks for memory that will be read soon, in lines of 64 bytes. Nothing depends on it.
+static inline void prefetch_lines(__global const void* address, uint lines)
 {
 #if defined(__x86_64__) && !defined(SUNDOG_PORTABLE_SIMD)
     const size_t first = (size_t)address;
-    __builtin_prefetch((const void*)first);
-    __builtin_prefetch((const void*)(first + 64));
-    __builtin_prefetch((const void*)(first + 128));
-    __builtin_prefetch((const void*)(first + 192));
+#pragma unroll
+    for (uint line = 0u; line < lines; ++line) __builtin_prefetch((const void*)(first + 64u * line));
 #endif
 }
 

@@ -164,9 +164,9 @@ static inline bool intersect_leaf_triangles(__global const BvhBlock** block, uin
 static inline void prefetch_visit(__global const BvhNode* bvh_nodes, __global const BvhBlock* bvh_blocks, int node)
 {
     if (node >= 0)
-        prefetch256(bvh_nodes + node);
+        prefetch_lines(bvh_nodes + node, 4u);
     else
-        prefetch256(bvh_blocks + ((uint)~node >> (2 * BVH_LEAF_BLOCK_BITS)));
+        prefetch_lines(bvh_blocks + ((uint)~node >> (2 * BVH_LEAF_BLOCK_BITS)), 4u);
 }
 
 // A ray with all that the tests of boxes and triangles need of it.

@@ -128,45 +128,51 @@ static inline bool wants_photons(const SurfaceView* scene, const Surface* surfac
     return (flags & BSDF_HAS_BROAD) || ((flags & BSDF_HAS_SMOOTH) && !found_elsewhere);
 }
 
-static inline LobeRecord pack_lobe(const Scattering* scattering, const Surface* surface)
+// Lobes with more to them than a normal, a colour and an exponent. Specular ones are never kept.
+#define LOBES_ARE_LONG (LOBES_HAVE_FACETS || LOBE_OCCURS(LOBE_COATED_DIFFUSE) || LOBE_OCCURS(LOBE_PRINCIPLED_DIFFUSE) || HAS_RELIEF)
+
+static inline void pack_lobe(const Scattering* scattering, const Surface* surface, __global LobeRecord* record)
 {
-    LobeRecord record;
-    record.lobe = scattering->lobe;
-    record.flags = scattering->flags;
-    record.eta = scattering->eta;
-    record.alpha_u = scattering->alpha_u;
-    record.alpha_v = scattering->alpha_v;
-    record.normal = pack(scattering->normal);
-    record.tangent = pack(scattering->tangent);
-    record.outgoing = pack(surface->outgoing);
-    record.geometric_normal = pack(surface->geometric_normal);
-    record.shading_normal = pack(surface->shading_normal);
-    record.reflectance = pack(scattering->reflectance);
-    record.transmittance = pack(scattering->transmittance);
-    record.eta_rgb = pack(scattering->eta_rgb);
-    record.k_rgb = pack(scattering->k_rgb);
-    return record;
+    record->lobe = scattering->lobe;
+    record->flags = scattering->flags;
+    record->alpha_u = scattering->alpha_u;
+    record->alpha_v = scattering->alpha_v;
+    record->normal = pack(scattering->normal);
+    record->outgoing = pack(surface->outgoing);
+    record->geometric_normal = pack(surface->geometric_normal);
+    record->reflectance = pack(scattering->reflectance);
+    if (!LOBES_ARE_LONG) return;
+    record->tangent = pack(scattering->tangent);
+    record->transmittance = pack(scattering->transmittance);
+    record->eta_rgb = pack(scattering->eta_rgb);
+    record->k_rgb = pack(scattering->k_rgb);
+    record->eta = scattering->eta;
+    record->shading_normal = pack(surface->shading_normal);
 }
 
 // The lobe again, with as much of the surface as evaluating it takes.
-static inline Scattering unpack_lobe(const LobeRecord* record, Surface* surface)
+static inline Scattering unpack_lobe(__global const LobeRecord* record, Surface* surface)
 {
     Scattering scattering;
     scattering.lobe = record->lobe;
     scattering.flags = record->flags;
-    scattering.eta = record->eta;
     scattering.alpha_u = record->alpha_u;
     scattering.alpha_v = record->alpha_v;
     scattering.normal = unpack(record->normal);
-    scattering.tangent = unpack(record->tangent);
     scattering.reflectance = unpack(record->reflectance);
+    surface->outgoing = unpack(record->outgoing);
+    surface->geometric_normal = unpack(record->geometric_normal);
+    scattering.cos_o = dot(surface->outgoing, scattering.normal);
+    scattering.tangent = scattering.transmittance = scattering.eta_rgb = scattering.k_rgb = (float3)(0.0f);
+    scattering.eta = 1.0f;
+    surface->shading_normal = scattering.normal;
+    if (!LOBES_ARE_LONG) return scattering;
+    scattering.tangent = unpack(record->tangent);
     scattering.transmittance = unpack(record->transmittance);
     scattering.eta_rgb = unpack(record->eta_rgb);
     scattering.k_rgb = unpack(record->k_rgb);
-    surface->outgoing = unpack(record->outgoing);
-    surface->geometric_normal = unpack(record->geometric_normal);
+    scattering.eta = record->eta;
     surface->shading_normal = unpack(record->shading_normal);
-    scattering.cos_o = dot(surface->outgoing, scattering.normal);
     return scattering;
 }
 

@@ -4,28 +4,28 @@
 #include "scene/bsdf.h"
 #include "scene/path_weights.h"
 
-static inline PathVertex make_vertex(const Surface* surface, const Scattering* scattering, float3 throughput, uint depth,
-                                     PathWeights weights, float merge, float eta_scale)
+// How much of a vertex there is to read.
+#define VERTEX_LINES (LOBES_ARE_LONG ? 3u : 2u)
+
+static inline void pack_vertex(const Surface* surface, const Scattering* scattering, float3 throughput, uint depth, PathWeights weights,
+                               float merge, float eta_scale, __global PathVertex* vertex)
 {
-    PathVertex vertex;
-    vertex.position = pack(surface->position);
-    vertex.offset = surface->offset;
-    vertex.throughput = pack(throughput);
-    vertex.depth = depth;
-    vertex.weights = weights;
-    vertex.merge = merge;
-    vertex.eta_scale = eta_scale;
-    vertex.lobe = pack_lobe(scattering, surface);
-    return vertex;
+    vertex->position = pack(surface->position);
+    vertex->offset = surface->offset;
+    vertex->throughput = pack(throughput);
+    vertex->depth = depth;
+    vertex->weights = weights;
+    vertex->merge = merge;
+    vertex->eta_scale = eta_scale;
+    pack_lobe(scattering, surface, &vertex->lobe);
 }
 
 // The lobe at a vertex, with as much of its surface as evaluating it and leaving it takes.
 static inline Scattering scattering_of(__global const PathVertex* vertex, Surface* surface)
 {
-    const LobeRecord record = vertex->lobe;
     surface->position = unpack(vertex->position);
     surface->offset = vertex->offset;
-    return unpack_lobe(&record, surface);
+    return unpack_lobe(&vertex->lobe, surface);
 }
 
 // What a subpath carries on when it leaves a vertex along `next`.

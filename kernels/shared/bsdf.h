@@ -92,21 +92,23 @@ SHARED_SIZE(Bsdf, 128);
 // normal: a series of so many Chebyshev polynomials in 2 sqrt(c) - 1.
 #define COAT_COEFFICIENTS 9
 
-// A lobe in memory (kernels/scene/scattering.h has it in registers), for queries that evaluate it later.
+// A lobe in memory (kernels/scene/scattering.h has it in registers), for queries that evaluate it later. The second half, a
+// line of a processor's cache, is neither written nor read in scenes whose lobes have no use for it (LOBES_ARE_LONG).
 typedef struct LobeRecord {
     uint lobe;
     uint flags;
-    float eta;
     float alpha_u;
     float alpha_v;
     Vec3 normal;
-    Vec3 tangent;
     Vec3 outgoing;
     Vec3 geometric_normal;
     Vec3 reflectance;
+
+    Vec3 tangent;
     Vec3 transmittance;
     Vec3 eta_rgb;
     Vec3 k_rgb;
+    float eta;
     Vec3 shading_normal; // of the surface
 } LobeRecord;
 SHARED_SIZE(LobeRecord, 128);

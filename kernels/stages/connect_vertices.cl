@@ -18,7 +18,7 @@ __kernel void connect_vertices(SURFACE_PARAMETERS, PathRules rules, float scale,
     shadow_rays[item].t_max = 0.0f;
     const VertexPair pair = pairs[item];
     const uint soon = pairs[min(item + PAIRS_AHEAD, count - 1u)].slot;
-    if (soon != NO_VERTEX) prefetch256(light_vertices + soon);
+    if (soon != NO_VERTEX) prefetch_lines(light_vertices + soon, VERTEX_LINES);
     if (pair.slot == NO_VERTEX) return;
     __global const PathVertex* camera_vertex = camera_vertices + pair.path;
     __global const PathVertex* light_vertex = light_vertices + pair.slot;

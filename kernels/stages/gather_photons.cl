@@ -15,7 +15,7 @@
 
 #if GATHERS_LOBES
 // Flux times f of the photons in the mask, one after another; zero for the others.
-static inline Flux8 scattered_flux(Flux8 flux, uint8 directions, int8 mask, const LobeRecord* record)
+static inline Flux8 scattered_flux(Flux8 flux, uint8 directions, int8 mask, __global const LobeRecord* record)
 {
     float red[8], green[8], blue[8];
     uint direction[8];
@@ -39,7 +39,7 @@ static inline Flux8 scattered_flux(Flux8 flux, uint8 directions, int8 mask, cons
 #endif
 
 // The estimate goes in and comes out by value, so that it stays in registers through the loop.
-static inline Estimate gather_run(PhotonRun run, const GatherQuery* query, const LobeRecord* lobe, __global const float* streams, uint stride, Estimate estimate)
+static inline Estimate gather_run(PhotonRun run, const GatherQuery* query, __global const LobeRecord* lobe, __global const float* streams, uint stride, Estimate estimate)
 {
     const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
     const float3 position = unpack(query->position);
@@ -70,19 +70,17 @@ __kernel void gather_photons(PhotonGrid grid, __global const uint* restrict cell
     ESTIMATOR_RESULT sum = {{0.0f}};
     if (query.radius > 0.0f) {
         const float3 position = unpack(query.position);
-        LobeRecord lobe;
-        if (GATHERS_LOBES && (query.flags & QUERY_EVALUATES_LOBE)) lobe = query_lobes[index];
         Estimate estimate;
         estimator_begin(&estimate, &query);
 #if WIDE_QUERIES
         const CellRange range = cells_within(&grid, position, query.radius);
         for (uint z = range.z0; z <= range.z1; ++z)
             for (uint y = range.y0; y <= range.y1; ++y)
-                estimate = gather_run(row_run(&grid, cell_ends + cell_ends_offset, &range, y, z), &query, &lobe, streams, grid.stride, estimate);
+                estimate = gather_run(row_run(&grid, cell_ends + cell_ends_offset, &range, y, z), &query, query_lobes + index, streams, grid.stride, estimate);
 #else
         PhotonRun runs[8];
         const uint run_count = find_photon_runs(&grid, cell_ends + cell_ends_offset, position, runs);
-        for (uint i = 0u; i < run_count; ++i) estimate = gather_run(runs[i], &query, &lobe, streams, grid.stride, estimate);
+        for (uint i = 0u; i < run_count; ++i) estimate = gather_run(runs[i], &query, query_lobes + index, streams, grid.stride, estimate);
 #endif
         sum = estimator_end(&estimate, query.radius);
     }

@@ -99,7 +99,7 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SAMPLER_PA
     disperse(camera_hero(&scene, key, index), &path, &scattering);
     uint flag = PATH_ENDED;
     if (can_be_joined(&scattering)) {
-        vertices[index] = make_vertex(&surface, &scattering, throughput, path.depth, weights, here.merge, path.eta_scale);
+        pack_vertex(&surface, &scattering, throughput, path.depth, weights, here.merge, path.eta_scale, vertices + index);
         flag |= PATH_JOINS;
         if (path.depth == 1u || path.pdf_w != PDF_DELTA) path.flags |= PATH_CONNECTABLE;
         if (here.connect > 0.0f) {

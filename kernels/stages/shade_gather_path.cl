@@ -25,7 +25,7 @@ __kernel void shade_gather_path(SURFACE_PARAMETERS, SamplerKey key, PathRules ru
     if (is_black_side(&scattering)) return;
     if (!is_specular(&scattering) && !is_narrow(&scattering)) {
         const GatherQuery query = make_query(&surface, &scattering, unpack(path.throughput), edges_left(rules, &path), radius);
-        if (query.flags & QUERY_EVALUATES_LOBE) query_lobes[index] = pack_lobe(&scattering, &surface);
+        if (query.flags & QUERY_EVALUATES_LOBE) pack_lobe(&scattering, &surface, query_lobes + index);
         queries[index] = query;
         return;
     }

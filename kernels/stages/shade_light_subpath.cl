@@ -68,8 +68,8 @@ __kernel void shade_light_subpath(SURFACE_PARAMETERS, Camera camera, __global co
     }
     if (connects && can_be_joined(&scattering)) {
         const float3 flux = unpack(path.throughput);
-        vertices[slot] =
-            make_vertex(&surface, &scattering, flux * irradiance_scale(&surface, scattering.normal), path.depth, subpath.weights, techniques.merge, 1.0f);
+        pack_vertex(&surface, &scattering, flux * irradiance_scale(&surface, scattering.normal), path.depth, subpath.weights, techniques.merge,
+                    1.0f, vertices + slot);
         const uint previous = last_vertices[index];
         const VertexLink link = {previous, previous == NO_VERTEX ? 1u : links[previous].rank + 1u};
         links[slot] = link;

@@ -70,7 +70,7 @@ __kernel void shade_query_path(SURFACE_PARAMETERS, SamplerKey key, PathRules rul
     const Continuation continuation = choose_continuation(&scattering, narrow_query_share, &sampler);
     if (continuation.asks) {
         const GatherQuery query = make_query(&surface, &scattering, throughput / continuation.probability, edges_left(rules, &path), radius);
-        if (query.flags & QUERY_EVALUATES_LOBE) query_lobes[index] = pack_lobe(&scattering, &surface);
+        if (query.flags & QUERY_EVALUATES_LOBE) pack_lobe(&scattering, &surface, query_lobes + index);
         queries[index] = query;
         return;
     }
