@@ -156,6 +156,39 @@ static inline float bsdf_reverse_pdf_w(const Scattering* scattering, const Surfa
     return bsdf_pdf_w(&reverse, &seen, surface->outgoing);
 }
 
+// What weights of joined paths ask of a lobe: its densities (1/sr) both ways.
+typedef struct BsdfDensities {
+    float pdf_w;         // as bsdf_pdf_w
+    float reverse_pdf_w; // as bsdf_reverse_pdf_w
+} BsdfDensities;
+
+// At once, since lobes share most of the work.
+static inline BsdfDensities bsdf_densities(const Scattering* scattering, const Surface* surface, float3 incoming)
+{
+    BsdfDensities densities = {0.0f, 0.0f};
+    const float cos_i = dot(incoming, scattering->normal);
+    if (!is_transmissive(scattering) && (cos_i <= 0.0f || scattering->cos_o <= 0.0f)) return densities;
+    switch (scattering->lobe) {
+    case LOBE_DIFFUSE:
+        densities.pdf_w = diffuse_pdf_w(cos_i);
+        densities.reverse_pdf_w = diffuse_pdf_w(scattering->cos_o);
+        break;
+#if LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR) || LOBE_OCCURS(LOBE_PRINCIPLED_SPECULAR)
+    case LOBE_PRINCIPLED_SPECULAR:
+    case LOBE_ROUGH_CONDUCTOR:
+        densities.pdf_w = rough_reflection_densities(scattering, surface->outgoing, incoming, &densities.reverse_pdf_w);
+        break;
+#endif
+#if LOBE_OCCURS(LOBE_PHONG)
+    case LOBE_PHONG: densities.pdf_w = densities.reverse_pdf_w = phong_pdf_w(scattering, surface->outgoing, incoming); break;
+#endif
+    default:
+        densities.pdf_w = bsdf_pdf_w(scattering, surface, incoming);
+        densities.reverse_pdf_w = bsdf_reverse_pdf_w(scattering, surface, incoming);
+    }
+    return densities;
+}
+
 // Chooses where a path goes on. False: it is absorbed.
 static inline bool bsdf_sample(const Scattering* scattering, const Surface* surface, float4 u, int carries, BsdfSample* sample)
 {

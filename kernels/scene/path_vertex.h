@@ -32,7 +32,7 @@ static inline Scattering scattering_of(__global const PathVertex* vertex, Surfac
 static inline PathWeights weights_along(PathWeights weights, Techniques techniques, const Surface* surface, const Scattering* scattering,
                                         float pdf_w, float3 next)
 {
-    const float reverse_pdf_w = pdf_w == PDF_DELTA ? 0.0f : bsdf_reverse_pdf_w(scattering, surface, next);
+    const float reverse_pdf_w = pdf_w == PDF_DELTA ? 0.0f : bsdf_densities(scattering, surface, next).reverse_pdf_w;
     return weights_after_scattering(weights, techniques, pdf_w, reverse_pdf_w, fabs(dot(next, surface->geometric_normal)));
 }
 

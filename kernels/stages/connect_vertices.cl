@@ -40,12 +40,11 @@ __kernel void connect_vertices(SURFACE_PARAMETERS, PathRules rules, float scale,
     const float cos_seen = fabs(dot(direction, seen.geometric_normal)), cos_lit = fabs(dot(direction, lit.geometric_normal));
     const float3 value = unpack(camera_vertex->throughput) * f_camera * unpack(light_vertex->throughput) * f_light *
                          (fabs(dot(direction, at_camera.normal)) * cos_lit / distance_squared);
-    const float light_share =
-        connection_share(light_vertex->weights, light_vertex->merge, bsdf_pdf_w(&at_camera, &seen, direction) * cos_lit / distance_squared,
-                         bsdf_reverse_pdf_w(&at_light, &lit, -direction));
-    const float camera_share =
-        connection_share(camera_vertex->weights, camera_vertex->merge, bsdf_pdf_w(&at_light, &lit, -direction) * cos_seen / distance_squared,
-                         bsdf_reverse_pdf_w(&at_camera, &seen, direction));
+    const BsdfDensities from_camera = bsdf_densities(&at_camera, &seen, direction), from_light = bsdf_densities(&at_light, &lit, -direction);
+    const float light_share = connection_share(light_vertex->weights, light_vertex->merge, from_camera.pdf_w * cos_lit / distance_squared,
+                                               from_light.reverse_pdf_w);
+    const float camera_share = connection_share(camera_vertex->weights, camera_vertex->merge, from_light.pdf_w * cos_seen / distance_squared,
+                                                from_camera.reverse_pdf_w);
     radiance[item] = pack(value * (scale * joint_weight(light_share, camera_share)));
     shadow_rays[item] = segment(ray_origin(&seen, direction), ray_origin(&lit, -direction));
 }

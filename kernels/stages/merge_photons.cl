@@ -74,9 +74,9 @@ static inline float3 merged(const MergingVertex* vertex, Techniques techniques, 
 {
     const float3 f = evaluate_for_photon(&vertex->scattering, &vertex->surface, incoming);
     if (is_black(f)) return f;
-    const float light_share = merge_share(vcm, vm, techniques, bsdf_pdf_w(&vertex->scattering, &vertex->surface, incoming));
-    const float camera_share = merge_share(vertex->weights.vcm, vertex->weights.vm, techniques,
-                                           bsdf_reverse_pdf_w(&vertex->scattering, &vertex->surface, incoming));
+    const BsdfDensities densities = bsdf_densities(&vertex->scattering, &vertex->surface, incoming);
+    const float light_share = merge_share(vcm, vm, techniques, densities.pdf_w);
+    const float camera_share = merge_share(vertex->weights.vcm, vertex->weights.vm, techniques, densities.reverse_pdf_w);
     return f * joint_weight(light_share, camera_share);
 }
 

@@ -54,10 +54,10 @@ static inline float3 connect_to_light(const SurfaceView* scene, const Surface* s
     const float3 f = bsdf_evaluate(scattering, surface, light.direction, CARRIES_RADIANCE);
     if (is_black(f)) return (float3)(0.0f);
     *shadow_ray = light.shadow_ray;
-    const float light_share = light.pdf_w == PDF_DELTA ? 0.0f : bsdf_pdf_w(scattering, surface, light.direction) / light.pdf_w;
+    const BsdfDensities densities = bsdf_densities(scattering, surface, light.direction);
+    const float light_share = light.pdf_w == PDF_DELTA ? 0.0f : densities.pdf_w / light.pdf_w;
     const float emitted_pdf_a = light.emission_ratio * fabs(dot(light.direction, surface->geometric_normal));
-    const float camera_share =
-        connection_share(weights, techniques.merge, emitted_pdf_a, bsdf_reverse_pdf_w(scattering, surface, light.direction));
+    const float camera_share = connection_share(weights, techniques.merge, emitted_pdf_a, densities.reverse_pdf_w);
     return f * light.radiance * (joint_weight(light_share, camera_share) * fabs(dot(light.direction, scattering->normal)));
 }
 

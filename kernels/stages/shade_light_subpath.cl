@@ -22,7 +22,7 @@ static inline PathWeights arriving_weights(const SurfaceView* scene, const Subpa
 static inline float splat_weight(const LensConnection* connection, const Surface* surface, const Scattering* scattering,
                                  PathWeights weights, Techniques techniques)
 {
-    const float reverse_pdf_w = bsdf_reverse_pdf_w(scattering, surface, connection->direction);
+    const float reverse_pdf_w = bsdf_densities(scattering, surface, connection->direction).reverse_pdf_w;
     return joint_weight(connection_share(weights, techniques.merge_unconnected, connection->pdf_a / techniques.light_paths, reverse_pdf_w), 0.0f);
 }
 

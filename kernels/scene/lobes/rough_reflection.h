@@ -28,6 +28,19 @@ static inline float rough_reflection_pdf_w(const Scattering* scattering, float3 
     return microfacet_d(&m, h) * microfacet_g1(&m, o) / (4.0f * o.z);
 }
 
+// The same, and as `reverse` the density of the outgoing direction for a path that comes from `incoming`.
+static inline float rough_reflection_densities(const Scattering* scattering, float3 outgoing, float3 incoming, float* reverse)
+{
+    const Frame frame = lobe_frame(scattering);
+    const float3 o = to_local(frame, outgoing), i = to_local(frame, incoming);
+    *reverse = 0.0f;
+    if (o.z <= 0.0f || i.z <= 0.0f) return 0.0f;
+    const Microfacets m = lobe_microfacets(scattering);
+    const float d = 0.25f * microfacet_d(&m, normalize(o + i));
+    *reverse = d * microfacet_g1(&m, i) / i.z;
+    return d * microfacet_g1(&m, o) / o.z;
+}
+
 // The weight is that of F = 1.
 static inline BsdfSample sample_rough_reflection(const Scattering* scattering, float3 outgoing, float2 u, float* cos_h)
 {
