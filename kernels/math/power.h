@@ -4,7 +4,7 @@
 #define SUNDOG_POWER_H
 
 // ln x of a normal number x > 0, as 2 artanh((m - 1) / (m + 1)) of its mantissa m in [1/sqrt(2), sqrt(2)). The relative error stays
-// below 3e-7 where x approaches 1. ln 0 is that of the smallest number.
+// below 3e-7 where x approaches 1.
 static inline float fast_log(float x)
 {
     const int exponent = (as_int(x) - 0x3f3504f3) >> 23;
@@ -33,7 +33,7 @@ static inline float fast_exp(float x)
 // 1 - e^x for x <= 0, with as many digits near 0.
 static inline float one_minus_exp(float x) { return x > -0.34f ? -x * expm1_ratio(x) : 1.0f - fast_exp(x); }
 
-// base^exponent for a base in [0, 1] and an exponent >= 0.
+// base^exponent for a base in (0, 1] and an exponent >= 0.
 static inline float unit_power(float base, float exponent) { return fast_exp(exponent * fast_log(base)); }
 
 #endif

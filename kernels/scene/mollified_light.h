@@ -5,9 +5,8 @@
 // Light Transport, section 4].
 #ifndef SUNDOG_SCENE_MOLLIFIED_LIGHT_H
 #define SUNDOG_SCENE_MOLLIFIED_LIGHT_H
-#include "scene/dispersion.h"
-#include "scene/lights.h"
 #include "scene/bsdf.h"
+#include "scene/lights.h"
 #include "shared/regularization.h"
 
 // -D REGULARIZED=1 compiles it in.
@@ -24,7 +23,7 @@ static inline bool within_cone(float3 a, float3 b, float one_minus_cos)
 
 // What one light sample brings to the path's pixel, if its shadow ray is free. words: position and choice of the light; u: of the
 // specular direction. The shadow ray is no_ray() when there is nothing to ask.
-static inline float3 sample_mollified_light(const SurfaceView* scene, const Surface* surface, const Scattering* scattering, PathState path,
+static inline float3 sample_mollified_light(const SurfaceView* scene, const Surface* surface, const Scattering* scattering, float3 throughput,
                                             Regularization regularization, uint4 words, float4 u, Ray* shadow_ray)
 {
     *shadow_ray = no_ray();
@@ -35,9 +34,8 @@ static inline float3 sample_mollified_light(const SurfaceView* scene, const Surf
     if (!within_cone(sample.direction, light.direction, regularization.one_minus_cos)) return (float3)(0.0f);
     const bool crosses_surface = dot(sample.direction, surface->geometric_normal) * dot(light.direction, surface->geometric_normal) <= 0.0f;
     if (crosses_surface || !sides_agree(scattering, surface, light.direction)) return (float3)(0.0f);
-    separate_wavelengths(scattering, sample.direction, &path);
     *shadow_ray = light.shadow_ray;
-    return unpack(path.throughput) * sample.weight * light.radiance * regularization.inverse_solid_angle;
+    return throughput * sample.weight * light.radiance * regularization.inverse_solid_angle;
 }
 
 #endif

@@ -1,5 +1,5 @@
 // Weights by the balance heuristic for all ways to make a path: the camera subpath hits the light, next-event estimation, connection of
-// two vertices, merging of two vertices, the light subpath is seen by the camera. Each subpath carries three numbers from
+// two vertices, merging of two vertices, the light subpath is seen by the camera. Each subpath carries three numbers, one of them in two versions (PathWeights), from
 // which its side's share of the weight follows at any vertex [Georgiev 2012, Implementing Vertex Connection and Merging].
 // Densities p are those of the samplers without Russian roulette: any weights that sum to 1 over the techniques are unbiased.
 #ifndef SUNDOG_SCENE_PATH_WEIGHTS_H

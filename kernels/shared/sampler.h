@@ -17,11 +17,12 @@ SHARED_SIZE(SamplerKey, 16);
 // Streams never share numbers.
 #define STREAM_CAMERA 1u
 #define STREAM_LIGHT 2u
-#define STREAM_TRIAL 4u // 3: thin_photons.cl
+#define STREAM_THINNING 3u // of photons
 // Of Markov chains: what their steps are made of, whether they are taken, and the samples that they start from.
 #define STREAM_PROPOSAL 4u
 #define STREAM_DECISION 5u
 #define STREAM_SEED 6u
+#define STREAM_TRIAL 7u // of unbiased gathering
 
 // Structure of the program: -D SAMPLER=...
 #define SAMPLER_INDEPENDENT 0

@@ -1,6 +1,6 @@
 // Adds each pixel's splats, in the order of their paths, to radiance: sums in a fixed order give the same bits
 // every time, which float atomics would not. Compensated, since one pixel may have all of a pass. One work-item a
-// pixel. Used by ptracer.
+// pixel. Used by ptracer and the bidirectional methods.
 #include "math/compensated.h"
 #include "shared/film.h"
 

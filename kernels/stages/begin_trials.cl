@@ -3,7 +3,7 @@
 #include "scene/trial_cone.h"
 #include "shared/trials.h"
 
-__kernel void begin_trials(SURFACE_PARAMETERS, float radius, uint count, __global const VertexPair* restrict pairs,
+__kernel void begin_trials(float radius, uint count, __global const VertexPair* restrict pairs,
                            __global const PathVertex* restrict camera_vertices, __global const PathVertex* restrict light_vertices,
                            __global const PathState* restrict paths, __global const uint* restrict occluded, __global const Vec3* restrict radiance,
                            __global TrialState* restrict states, __global uint* restrict flags)

@@ -8,7 +8,7 @@
 // Light vertices lie bounce by bounce: memory would be waited for at each.
 #define PAIRS_AHEAD 8u
 
-__kernel void connect_vertices(SURFACE_PARAMETERS, PathRules rules, float scale, uint count,
+__kernel void connect_vertices(PathRules rules, float scale, uint count,
                                __global const VertexPair* restrict pairs, __global const PathVertex* restrict camera_vertices,
                                __global const PathVertex* restrict light_vertices, __global Ray* restrict shadow_rays,
                                __global Vec3* restrict radiance)

@@ -12,7 +12,7 @@ static inline uint4 trial_words(SamplerKey key, VertexPair pair, uint depth, uin
     return philox4x32((uint4)(trial, pair.slot, pair.path, (STREAM_TRIAL << 28) | depth), pass);
 }
 
-__kernel void propose_trials(SURFACE_PARAMETERS, SamplerKey key, PathRules rules, float radius, uint waiting, uint per_pair,
+__kernel void propose_trials(SamplerKey key, PathRules rules, float radius, uint waiting, uint per_pair,
                              __global const uint* restrict waiting_pairs, __global const VertexPair* restrict pairs,
                              __global const PathVertex* restrict camera_vertices, __global const PathVertex* restrict light_vertices,
                              __global const TrialState* restrict states, __global Ray* restrict rays, __global Trial* restrict trials)

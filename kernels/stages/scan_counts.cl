@@ -1,5 +1,5 @@
 // Exclusive prefix sum of a few thousand counts, in place, from a start of *total (append != 0) or 0; *total
-// becomes the end. One work-item: on a CPU faster than any parallel scan of this size.
+// becomes the end, or 2^32 - 1 where that is less. One work-item: on a CPU faster than any parallel scan of this size.
 __kernel void scan_counts(__global uint* restrict counts, uint n, uint append, __global uint* restrict total)
 {
     if (get_global_id(0) != 0) return;
@@ -7,7 +7,7 @@ __kernel void scan_counts(__global uint* restrict counts, uint n, uint append, _
     for (uint i = 0u; i < n; ++i) {
         const uint count = counts[i];
         counts[i] = sum;
-        sum += count;
+        sum = add_sat(sum, count);
     }
     *total = sum;
 }

@@ -1,7 +1,7 @@
 // One vertex of a camera path, with next-event estimation and BSDF sampling under multiple importance
 // sampling. Reads hits of the active paths; adds emission to radiance; writes the light's shadow ray with
 // what it would bring, the next ray, and whether the path goes on. One work-item an active path. -D REGULARIZED: specular vertices
-// have light as well. Used by path and psr.
+// have light as well. Used by path, psr and pssmlt.
 #include "scene/continue_path.h"
 #include "scene/direct_light.h"
 #include "scene/mollified_light.h"
@@ -43,7 +43,7 @@ __kernel void shade_camera_path(SURFACE_PARAMETERS, SAMPLER_PARAMETERS, PathRule
     } else if (REGULARIZED && path.scattered > 0u && is_specular(&scattering)) {
         const float4 u = unit_float4(camera_words(SAMPLER_VIEW, index, path.depth, BLOCK_SPARE));
         Ray shadow_ray;
-        shadow_radiance[index] = pack(sample_mollified_light(&scene, &surface, &scattering, path, regularization, words, u, &shadow_ray));
+        shadow_radiance[index] = pack(sample_mollified_light(&scene, &surface, &scattering, unpack(path.throughput), regularization, words, u, &shadow_ray));
         shadow_rays[index] = shadow_ray;
     }
     Ray next;

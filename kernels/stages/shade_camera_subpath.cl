@@ -111,7 +111,7 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SAMPLER_PA
     } else if (REGULARIZED && !(path.flags & PATH_CONNECTABLE) && path.scattered > 0u && is_specular(&scattering)) {
         const float4 u = unit_float4(camera_words(SAMPLER_VIEW, index, path.depth, BLOCK_SPARE));
         Ray shadow_ray;
-        shadow_radiance[index] = pack(sample_mollified_light(&scene, &surface, &scattering, path, regularization, words, u, &shadow_ray));
+        shadow_radiance[index] = pack(sample_mollified_light(&scene, &surface, &scattering, throughput, regularization, words, u, &shadow_ray));
         shadow_rays[index] = shadow_ray;
     }
     Ray next;

@@ -9,9 +9,6 @@
 #include "shared/photon.h"
 #include "shared/sampler.h"
 
-// Beside the streams of paths (shared/sampler.h).
-#define STREAM_ROULETTE 3u
-
 __kernel void thin_photons(__global const Photon* restrict photons, uint first, uint photon_count, __global const GatherSum* restrict importons, SamplerKey key,
                            float enough, float least, uint count, __global Photon* restrict survivors, __global uint* restrict flags)
 {
@@ -20,7 +17,7 @@ __kernel void thin_photons(__global const Photon* restrict photons, uint first, 
     flags[index] = PATH_ENDED;
     if (first + index >= photon_count) return;
     const float survival = clamp(importons[index].count / enough, least, 1.0f);
-    const uint4 counter = (uint4)(first + index, key.iteration_low, key.iteration_high, STREAM_ROULETTE << 28);
+    const uint4 counter = (uint4)(first + index, key.iteration_low, key.iteration_high, STREAM_THINNING << 28);
     const float u = unit_float4(philox4x32(counter, (uint2)(key.seed_low, key.seed_high))).x;
     if (!(u < survival)) return;
     Photon photon = photons[first + index];

@@ -4,7 +4,7 @@
 #include "scene/trial_cone.h"
 #include "shared/trials.h"
 
-__kernel void weigh_near_pairs(SURFACE_PARAMETERS, float radius, uint count, __global const VertexPair* restrict pairs,
+__kernel void weigh_near_pairs(float radius, uint count, __global const VertexPair* restrict pairs,
                                __global const PathVertex* restrict camera_vertices, __global const PathVertex* restrict light_vertices,
                                __global const TrialState* restrict states, __global Vec3* restrict radiance)
 {

@@ -76,7 +76,7 @@ public:
 
         camera_.start(context_.scene, pool_, key);
         camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
-        const ConnectedSubpaths subpaths{pool_, camera_, camera_subpaths_, light_subpaths_, key};
+        const ConnectedSubpaths subpaths{pool_, camera_subpaths_, light_subpaths_, key};
         if (connections_) light_subpaths_.add_splats(camera_.radiance);
         for (;;) {
             camera_subpaths_.shade(context_.scene, camera_, pool_, key, techniques, regularization);
@@ -149,10 +149,13 @@ std::vector<ParameterSpec> joined(std::vector<ParameterSpec> first, const std::v
 
 std::vector<ParameterSpec> connection_specs(const std::vector<std::string>& choices)
 {
+    const bool may_be_left_out = std::find(choices.begin(), choices.end(), "none") != choices.end();
     return {
+        light_choice_spec(),
         {"connections", ParameterType::choice, "own", "",
          "Light vertices that a camera vertex connects to: all of one light subpath, its own, or some that are resampled from all light "
-         "subpaths (Davidovic et al. 2014); none also leaves out next-event estimation and light tracing.",
+         "subpaths (Davidovic et al. 2014)" +
+             std::string(may_be_left_out ? "; none also leaves out next-event estimation and light tracing." : "."),
          0, 0, choices},
         {"picks",
          ParameterType::integer,
@@ -166,8 +169,8 @@ std::vector<ParameterSpec> connection_specs(const std::vector<std::string>& choi
 
 std::vector<ParameterSpec> bidirectional_specs()
 {
-    return {photons_spec(),  max_depth_spec(), rr_depth_spec(2, "subpaths: of the camera by throughput, of lights by albedo"), sampler_spec(), light_choice_spec(),
-            spectral_spec(), iterations_spec()};
+    return {photons_spec(), max_depth_spec(), rr_depth_spec(rr_depth_of_subpaths, "subpaths: of the camera by throughput, of lights by albedo"),
+            sampler_spec(), spectral_spec(), iterations_spec()};
 }
 
 std::vector<ParameterSpec> merging_specs()

@@ -59,7 +59,8 @@ struct MethodInfo {
     std::map<std::string, std::string> errors_need = {}; // parameters with which alone errors are estimated
     std::string description; // a few sentences: idea, when to use it
     std::vector<ParameterSpec> parameters;
-    bool follows_motion = true; // false: what the camera sees is found once, so nothing may move
+    bool follows_motion = true; // false: what is computed in one pass is used in later ones, so nothing may move
+    std::map<std::string, std::string> motion_excludes = {}; // parameters with which the method does not follow motion
     bool traces_light = true; // false: it has no paths from lights, so a collimated one stays dark
     std::unique_ptr<Method> (*create)(RenderContext&, const Parameters&) = nullptr;
 };

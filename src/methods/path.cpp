@@ -14,7 +14,7 @@ const MethodRegistration registration({
     .error_model = ErrorModel::variance,
     .description = "Paths from the camera with next-event estimation and BSDF sampling under multiple importance sampling. Best for diffuse scenes with "
                    "large lights; cannot find small lights through glass.",
-    .parameters = {max_depth_spec(), rr_depth_spec(5, "paths, by throughput"), sampler_spec(), light_choice_spec(), spectral_spec(), iterations_spec()},
+    .parameters = {max_depth_spec(), rr_depth_spec(rr_depth_of_paths, "paths, by throughput"), sampler_spec(), light_choice_spec(), spectral_spec(), iterations_spec()},
     .traces_light = false,
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> { return make_path_tracing(context, parameters, {}); },
 });

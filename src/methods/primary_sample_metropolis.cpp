@@ -36,14 +36,6 @@ uint steps_per_iteration(std::size_t pixels, std::size_t chains)
     return static_cast<uint>((pixels + chains - 1) / chains);
 }
 
-// 0: that of the method whose paths they are.
-PathRules sample_path_rules(const Parameters& parameters)
-{
-    PathRules rules = path_rules(parameters);
-    if (rules.rr_depth == 0) rules.rr_depth = is_bidirectional(parameters) ? 2 : 5;
-    return rules;
-}
-
 MarkovChainSettings chain_settings(const Parameters& parameters, std::size_t pixels, std::uint64_t seed)
 {
     const std::size_t chains = chain_count(parameters, pixels);
@@ -61,7 +53,7 @@ public:
           camera_(context.device, context.camera, context.filter, SamplerKind::sobol, context.scene.surface_options()),
           pool_(context.device, context.scene, std::max(pixels_, settings_.chains)), chains_(context.device, settings_),
           paths_((bidirectional_ ? make_bidirectional_sample_paths : make_camera_sample_paths)(
-              context.device, context.scene, context.camera, context.filter, {settings_.chains, pixels_, sample_path_rules(parameters), schedule.has_value()})),
+              context.device, context.scene, context.camera, context.filter, {settings_.chains, pixels_, path_rules(parameters), schedule.has_value()})),
           splats_(context.device, pixels_, settings_.chains * (1 + std::size_t(settings_.steps)) * (bidirectional_ ? 3 : 1)),
           chain_radiance_(context.device, pixels_)
     {
@@ -132,8 +124,8 @@ private:
         if (found)
             leave_splats(0);
         else
-            log_warning("none of " + std::to_string(chains_.seeds()) +
-                        " samples found light, so the image is still black: raise seeds (-p seeds=N), or choose sppm (-m sppm)");
+            log_warning("none of " + std::to_string(seeds_) + " samples found light, so this iteration is black: raise seeds (-p seeds=N), " +
+                        (schedule_ ? "let the cone narrow more slowly (-p rate=R), " : "") + "or choose sppm (-m sppm)");
     }
 
     void mutate(std::uint64_t step)

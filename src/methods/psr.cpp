@@ -4,6 +4,7 @@
 #include "methods/bidirectional.h"
 #include "methods/path_tracing.h"
 #include "methods/primary_sample_metropolis.h"
+#include "methods/standard_parameters.h"
 
 namespace sundog
 {
@@ -13,8 +14,8 @@ namespace
 ParameterSpec paths_spec()
 {
     return {"paths", ParameterType::choice, "path", "",
-            "What is regularized: path tracing; bidirectional path tracing where none of its techniques finds a path; or the paths of path, made by "
-            "Markov chains as in pssmlt.",
+            "path: path tracing; bdpt: bidirectional path tracing, of which only paths that none of its techniques finds are regularized; pssmlt: the "
+            "paths of path, made by Markov chains.",
             0, 0, {"path", "bdpt", "pssmlt"}};
 }
 
@@ -48,11 +49,14 @@ const MethodRegistration registration({
     .paper = "Kaplanyan and Dachsbacher 2013, Computer Graphics Forum 32(2)",
     .estimator_class = "consistent",
     .error_model = ErrorModel::none,
-    .description = "Path tracing that finds the light of points and directions in mirrors and through glass too, by mollifying specular directions "
-                   "less and less. Where path is black and lamps have no area; lamps that have one it treats as path does.",
-    .parameters = joined(joined(joined(joined({paths_spec()}, RegularizationSchedule::specs()), bidirectional_specs()),
+    .description = "Path tracing that finds the light of points and directions in mirrors and through glass too, where path renders black, by "
+                   "mollifying specular directions less and less. Light of lamps with an area it finds as path does.",
+    .parameters = joined(joined(joined({paths_spec(), photons_spec(), max_depth_spec(), rr_depth_of_paths_spec(), sampler_spec(), spectral_spec(),
+                                        iterations_spec()},
+                                       RegularizationSchedule::specs()),
                                 connection_specs({"own", "resampled"})),
                          chain_specs()),
+    .motion_excludes = {{"paths", "pssmlt"}},
     .create = create,
 });
 

@@ -10,7 +10,7 @@ namespace sundog
 {
 
 // gamma_i = gamma_1 i^-rate. The variance of a vertex mollified in two dimensions goes as gamma^-2, its bias as gamma^2: of
-// the mean of N iterations, N^(2 rate - 1) and N^(-4 rate) fall alike at the rate 1/6, as N^(-2/3).
+// the mean of N iterations, variance N^(2 rate - 1) and squared bias N^(-4 rate) fall alike at the rate 1/6, as N^(-2/3).
 class RegularizationSchedule
 {
 public:

@@ -1,5 +1,7 @@
 #include "methods/standard_parameters.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,6 +31,12 @@ ParameterSpec max_depth_spec()
 ParameterSpec rr_depth_spec(int default_depth, const std::string& paths)
 {
     return {"rr_depth", ParameterType::integer, std::to_string(default_depth), "edges", "Depth from which Russian roulette may end " + paths + ".", 1, 1e6, {}};
+}
+
+ParameterSpec rr_depth_of_paths_spec()
+{
+    return {"rr_depth", ParameterType::integer, "0", "edges",
+            fmt::format("Depth from which Russian roulette may end paths; 0: that of path or bdpt, {} or {}.", rr_depth_of_paths, rr_depth_of_subpaths), 0, 1e6, {}};
 }
 
 ParameterSpec sampler_spec()
@@ -91,8 +99,9 @@ ParameterSpec spectral_spec()
 
 PathRules path_rules(const Parameters& parameters)
 {
-    const std::int64_t max_depth = parameters.integer("max_depth");
-    return {max_depth < 0 ? UNBOUNDED_DEPTH : static_cast<uint>(max_depth), static_cast<uint>(parameters.integer("rr_depth"))};
+    const std::int64_t max_depth = parameters.integer("max_depth"), rr_depth = parameters.integer("rr_depth");
+    const int usual_rr_depth = parameters.has("paths") && parameters.text("paths") == "bdpt" ? rr_depth_of_subpaths : rr_depth_of_paths;
+    return {max_depth < 0 ? UNBOUNDED_DEPTH : static_cast<uint>(max_depth), static_cast<uint>(rr_depth > 0 ? rr_depth : usual_rr_depth)};
 }
 
 SamplerKind sampler_kind(const Parameters& parameters)
@@ -108,6 +117,12 @@ LightSelection light_selection(const Parameters& parameters)
         parameters.refuse("light_choice", "light_choice=" + choice +
                                               " is for next-event estimation, which direct=photons leaves out: "
                                               "leave one of them at its default (direct=nee, light_choice=auto)");
+    if (parameters.has("connections") && parameters.text("connections") == "none") {
+        if (choice != "auto")
+            parameters.refuse("light_choice", "light_choice=" + choice + " is for next-event estimation, which connections=none leaves out: "
+                                              "leave light_choice at its default (auto)");
+        return LightSelection::power;
+    }
     return choice == "tree" ? LightSelection::tree : choice == "power" ? LightSelection::power : LightSelection::automatic;
 }
 

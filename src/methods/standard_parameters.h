@@ -13,6 +13,7 @@ namespace sundog {
 ParameterSpec iterations_spec();
 ParameterSpec max_depth_spec();
 ParameterSpec rr_depth_spec(int default_depth, const std::string& paths);
+ParameterSpec rr_depth_of_paths_spec(); // of a method whose parameter `paths` says whose paths it has
 ParameterSpec sampler_spec();
 ParameterSpec photons_spec();
 ParameterSpec radius_spec();
@@ -22,6 +23,9 @@ ParameterSpec light_choice_spec();
 ParameterSpec kernel_spec(const std::string& default_kernel = "epanechnikov");
 ParameterSpec filter_kernel_spec(); // with the filters of photon maps, for methods that need not know a kernel's moments
 ParameterSpec spectral_spec();
+
+constexpr int rr_depth_of_paths = 5;
+constexpr int rr_depth_of_subpaths = 2;
 
 PathRules path_rules(const Parameters& parameters); // of max_depth and rr_depth
 SamplerKind sampler_kind(const Parameters& parameters);

@@ -11,7 +11,7 @@ namespace
 
 ParameterSpec merging_spec()
 {
-    return {"merging", ParameterType::boolean, "true", "", "Merge vertices that lie close; without it this is bdpt.", 0, 0, {}};
+    return {"merging", ParameterType::boolean, "true", "", "Merge vertices that lie close; without it this is bdpt, and radius, alpha and kernel mean nothing.", 0, 0, {}};
 }
 
 std::unique_ptr<Method> create(RenderContext& context, const Parameters& parameters)

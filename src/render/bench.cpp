@@ -41,18 +41,29 @@ std::vector<BenchFigure> measure_photon_map(Device& device)
             {"photon map", "largest difference from scalar C++", "", f.largest_difference, 1e-4, true}};
 }
 
+struct RenderCase {
+    std::string method;
+    BenchFloor floor;
+    std::optional<double> iterations_per_second, percent_without_kernel, megabytes; // targets
+};
+
 std::vector<BenchFigure> measure_renders(Device& device)
 {
     std::vector<BenchFigure> figures;
+    const RenderCase cases[] = {{"sppm", BenchFloor::diffuse, on_cpu(device, 5.0), 5.0, 400.0},
+                                {"pppm", BenchFloor::diffuse, {}, {}, {}},
+                                {"ptracer", BenchFloor::diffuse, {}, {}, {}},
+                                {"path", BenchFloor::diffuse, {}, {}, {}},
+                                {"bdpt", BenchFloor::glossy, on_cpu(device, 3.6), {}, {}},
+                                {"vcm", BenchFloor::glossy, on_cpu(device, 1.8), {}, {}}};
     // One light subpath a pixel, paths of at most ten edges.
-    for (const char* method : {"sppm", "pppm", "ptracer", "path"}) {
+    for (const RenderCase& c : cases) {
         Device own(device.info()); // for a peak of its own
-        const RenderFigures f = bench_render(own, cornell_glass_scene(512, 512), method, 262144, 10, 20);
-        const bool is_sppm = std::string_view(method) == "sppm";
-        const std::string what = fmt::format("{}, cornell-glass 512x512", method);
-        figures.push_back({"render", what, "iterations/s", f.iterations_per_second, is_sppm ? on_cpu(device, 5.0) : std::nullopt});
-        figures.push_back({"render", what + ", time without a kernel", "%", 100.0 * f.host_share, is_sppm ? std::optional(5.0) : std::nullopt, true});
-        figures.push_back({"render", what + ", peak device memory", "MB", 1e-6 * f.peak_bytes, is_sppm ? std::optional(400.0) : std::nullopt, true});
+        const RenderFigures f = bench_render(own, cornell_glass_scene(512, 512, c.floor), c.method, 262144, 10, 20);
+        const std::string what = fmt::format("{}, cornell-glass{} 512x512", c.method, c.floor == BenchFloor::glossy ? " with a glossy floor" : "");
+        figures.push_back({"render", what, "iterations/s", f.iterations_per_second, c.iterations_per_second});
+        figures.push_back({"render", what + ", time without a kernel", "%", 100.0 * f.host_share, c.percent_without_kernel, true});
+        figures.push_back({"render", what + ", peak device memory", "MB", 1e-6 * f.peak_bytes, c.megabytes, true});
         figures.push_back({"render", what + ", ready after", "s", f.setup_seconds, std::nullopt});
     }
     Device own(device.info());

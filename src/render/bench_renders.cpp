@@ -29,9 +29,9 @@ ShapeDescription sphere(Vec3 center, float radius, uint bsdf)
 
 } // namespace
 
-Scene cornell_glass_scene(int width, int height)
+Scene cornell_glass_scene(int width, int height, BenchFloor floor)
 {
-    enum : uint { white, red, green, glass, mirror };
+    enum : uint { white, red, green, glass, mirror, polished };
     Scene scene;
     scene.file = "cornell-glass";
     scene.bsdfs = {{"white", {}, DiffuseBsdf{{0.76f, 0.75f, 0.72f}}},
@@ -39,7 +39,8 @@ Scene cornell_glass_scene(int width, int height)
                    {"green", {}, DiffuseBsdf{{0.14f, 0.45f, 0.091f}}},
                    {"glass", {}, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}}},
                    {"mirror", {}, ConductorBsdf{}}};
-    scene.shapes = {quad({-1, -1, 1}, {2, 0, 0}, {0, 0, -2}, white), quad({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, white),
+    if (floor == BenchFloor::glossy) scene.bsdfs.push_back({"polished", {}, PhongBsdf{{0.1f, 0.1f, 0.1f}, {0.7f, 0.7f, 0.7f}, 90.0f}});
+    scene.shapes = {quad({-1, -1, 1}, {2, 0, 0}, {0, 0, -2}, floor == BenchFloor::glossy ? polished : white), quad({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, white),
                     quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, white), quad({-1, -1, 1}, {0, 0, -2}, {0, 2, 0}, red),
                     quad({1, -1, -1}, {0, 0, 2}, {0, 2, 0}, green),  quad({-.25f, .995f, -.25f}, {.5f, 0, 0}, {0, 0, .5f}, white),
                     sphere({.42f, -.6f, .32f}, .4f, glass),          sphere({-.45f, -.6f, -.3f}, .4f, mirror)};

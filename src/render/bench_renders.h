@@ -20,7 +20,9 @@ struct RenderFigures {
 // Renders `scene` with `photons` light subpaths an iteration for about `iterations` iterations.
 RenderFigures bench_render(Device& device, const Scene& scene, const std::string& method, std::uint64_t photons, int max_depth, int iterations);
 
+enum class BenchFloor { diffuse, glossy };
+
 // The Cornell box with a glass and a mirror sphere, as scenes/gallery/cornell-glass.xml, without a file.
-Scene cornell_glass_scene(int width, int height);
+Scene cornell_glass_scene(int width, int height, BenchFloor floor = BenchFloor::diffuse);
 
 } // namespace sundog

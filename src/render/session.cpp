@@ -29,18 +29,24 @@ const MethodInfo& choose_method(const Scene& scene, const RenderSettings& settin
 {
     const bool from_scene = settings.method.empty() && !scene.integrator.method.empty();
     const std::string name = from_scene ? scene.integrator.method : settings.method.empty() ? default_method : settings.method;
-    if (const MethodInfo* info = find_method(name)) {
-        if (scene.moves() && !info->follows_motion)
-            throw SceneError(scene.sensor.where, fmt::format("{} cannot render what moves: what it computes before the first pass would have to stay; choose sppm (-m sppm), "
-                                                             "or give shutter_close the value of shutter_open",
-                                                             name));
-        return *info;
-    }
+    if (const MethodInfo* info = find_method(name)) return *info;
     std::vector<std::string> known;
     for (const MethodInfo* info : all_methods()) known.push_back(info->name);
     const std::string message = fmt::format("there is no method '{}'; choose one of {} (-m NAME)", name, fmt::join(known, ", "));
     if (from_scene) throw SceneError(scene.integrator.where, message);
     throw UsageError(message);
+}
+
+void check_motion(const Scene& scene, const MethodInfo& method, const Parameters& parameters)
+{
+    if (!scene.moves()) return;
+    std::string which = method.follows_motion ? "" : method.name;
+    for (const auto& [name, value] : method.motion_excludes)
+        if (parameters.text(name) == value) which = fmt::format("{} with {}={}", method.name, name, value);
+    if (!which.empty())
+        throw SceneError(scene.sensor.where, fmt::format("{} cannot render what moves: what it computes in one pass would have to hold in later ones; "
+                                                         "choose sppm (-m sppm), or give shutter_close the value of shutter_open",
+                                                         which));
 }
 
 // The scene's values count for the scene's own method alone; the command line's always.
@@ -53,7 +59,9 @@ Parameters choose_parameters(const Scene& scene, const RenderSettings& settings,
         if (same_method || known) values[name] = {text.value, text.where};
     }
     for (const auto& [name, text] : settings.parameters) values[name] = {text, {}};
-    return Parameters(method.name, method.parameters, values);
+    Parameters parameters(method.name, method.parameters, values);
+    check_motion(scene, method, parameters);
+    return parameters;
 }
 
 // Throws UsageError unless errors are not asked for, or the method can estimate them.

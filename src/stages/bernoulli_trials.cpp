@@ -31,7 +31,7 @@ BernoulliTrials::BernoulliTrials(Device& device, const DeviceScene& scene, std::
 void BernoulliTrials::run(const DeviceScene& scene, const ConnectedSubpaths& subpaths, const ConnectedPairs& pairs, std::size_t count,
                           float radius)
 {
-    begin_trials_(count, scene.surfaces(), radius, static_cast<uint>(count), pairs.pairs, subpaths.camera_subpaths.vertices,
+    begin_trials_(count, radius, static_cast<uint>(count), pairs.pairs, subpaths.camera_subpaths.vertices,
                   subpaths.light_subpaths.vertices(), subpaths.pool.paths, pairs.occluded, pairs.radiance, states_, flags_);
     compaction_.keep(pairs.all(), flags_, pairs.count(), count, PATH_ALIVE, waiting_, waiting_count_);
     std::size_t waiting = waiting_count_.read(0);
@@ -44,7 +44,7 @@ std::size_t BernoulliTrials::run_round(const DeviceScene& scene, const Connected
     const std::size_t per_pair = std::clamp<std::size_t>(std::min(rays_of_a_short_round, rays_.size()) / waiting, 1, most_trials_a_pair);
     const std::size_t rays = waiting * per_pair;
     const uint waiting_now = static_cast<uint>(waiting), each = static_cast<uint>(per_pair);
-    propose_trials_(rays, scene.surfaces(), subpaths.key, rules_, radius, waiting_now, each, waiting_, pairs.pairs,
+    propose_trials_(rays, subpaths.key, rules_, radius, waiting_now, each, waiting_, pairs.pairs,
                     subpaths.camera_subpaths.vertices, subpaths.light_subpaths.vertices(), states_, rays_, trials_made_);
     ray_count_.fill(static_cast<uint>(rays));
     trace_closest_(rays, scene.geometry(), rays_, hits_, pairs.all(), ray_count_);

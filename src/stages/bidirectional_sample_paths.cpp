@@ -18,7 +18,7 @@ public:
                              const PrimarySampleSettings& settings)
         : camera_(CameraPaths::anywhere(device, camera, filter, SamplerKind::chain, settings.chains)),
           light_subpaths_(device, scene, camera, light_settings(settings)),
-          camera_subpaths_(device, scene, camera, settings.chains, settings.rules, SamplerKind::chain, true, settings.regularized),
+          camera_subpaths_(device, scene, camera, settings.chains, settings.rules, SamplerKind::chain, true, false),
           connections_(device, scene, settings.chains, settings.rules, make_own_connections(device, settings.chains, SamplerKind::chain)),
           add_camera_contributions_(device, "add_camera_contributions", "Sum contributions"),
           // All over the film, a light subpath comes with 1 / pixels of a camera subpath for each pixel.
@@ -34,8 +34,8 @@ public:
         chains.count_used_numbers(ChainStream::light, pool.paths);
         camera_.start(scene, pool, numbers);
         for (;;) {
-            camera_subpaths_.shade(scene, camera_, pool, numbers, techniques_, regularization_);
-            connections_.connect(scene, {pool, camera_, camera_subpaths_, light_subpaths_, numbers.key}, camera_.radiance);
+            camera_subpaths_.shade(scene, camera_, pool, numbers, techniques_, Regularization{});
+            connections_.connect(scene, {pool, camera_subpaths_, light_subpaths_, numbers.key}, camera_.radiance);
             if (!pool.keep_alive()) break;
             pool.trace(scene);
         }

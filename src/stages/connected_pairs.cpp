@@ -30,7 +30,7 @@ ConnectedPairs::ConnectedPairs(Device& device, const DeviceScene& scene, std::si
 
 void ConnectedPairs::connect(const DeviceScene& scene, const ConnectedSubpaths& subpaths, float scale, std::size_t count)
 {
-    connect_vertices_(count, scene.surfaces(), rules_, scale, static_cast<uint>(count), pairs, subpaths.camera_subpaths.vertices,
+    connect_vertices_(count, rules_, scale, static_cast<uint>(count), pairs, subpaths.camera_subpaths.vertices,
                       subpaths.light_subpaths.vertices(), shadow_rays_, radiance);
     count_.fill(static_cast<uint>(count));
     trace_any_(count, scene.geometry(), shadow_rays_, all_, count_, occluded);

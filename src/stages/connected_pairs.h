@@ -10,7 +10,6 @@ namespace sundog
 // What is connected.
 struct ConnectedSubpaths {
     PathPool& pool; // whose flags say which paths left a vertex
-    const CameraPaths& camera;
     const CameraSubpaths& camera_subpaths;
     const LightSubpaths& light_subpaths;
     SamplerKey key;

@@ -59,7 +59,7 @@ bool LightSubpaths::trace_once(const DeviceScene& scene, const CameraPaths& came
             photon_vertices_.append(pool.compaction, photon_vertex_deposits_, pool.flags, pool.active_count(), pool.items());
         }
     } while (pool.keep_alive());
-    return photons_complete() && splats_.complete();
+    return (!settings_.merges || photons_complete()) && (!settings_.connects || splats_.complete());
 }
 
 bool LightSubpaths::photons_complete()

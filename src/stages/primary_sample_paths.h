@@ -25,7 +25,7 @@ public:
     // (kernels/math/scalar_contribution.h), by chain.
     virtual const Buffer<float>& trace(const DeviceScene& scene, PathPool& pool, MarkovChains& chains) = 0;
 
-    // For the paths to come, where they are regularized.
+    // For the paths to come, where settings say that they are regularized: camera paths alone can be.
     void regularize(Regularization regularization) { regularization_ = regularization; }
 
     // How many splats they have, and leaves them as those of samples first_sample + chain.

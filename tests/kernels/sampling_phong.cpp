@@ -11,7 +11,7 @@ namespace
 using std::numbers::pi;
 
 const std::vector<double> angles = {0.0, 0.5, 1.1, 1.4};
-const std::vector<float> exponents = {1.0f, 3.0f, 40.0f};
+const std::vector<float> exponents = {0.0f, 0.05f, 1.0f, 3.0f, 40.0f};
 
 class Phong : public BsdfProbe
 {

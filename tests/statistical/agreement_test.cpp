@@ -362,6 +362,44 @@ TEST_P(Agreement, EveryEmitter)
                      {request("sppm", 32), request("photonmapper", 32), request("bdpt", 48), request("bpm", 32), request("pssmlt", 32, "paths", "path"), request("pssmlt", 24)}, edge_bias);
 }
 
+// A lamp that shines through glass, seen in a mirror as well: no technique but merging and a chance hit joins what it lights
+// to the camera there. The lamp is large, so that chance hits are frequent enough to tell whether methods that can do with
+// small ones are right.
+TEST_P(Agreement, LargeLampInGlass)
+{
+    Scene scene = cornell_box(size);
+    scene.shapes.pop_back(); // the box's own light
+    const uint glass = add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}});
+    const uint mirror = add_bsdf(scene, ConductorBsdf{});
+    scene.shapes.push_back(make_sphere({.3f, -.3f, .1f}, .45f, glass));
+    ShapeDescription lamp = make_sphere({.3f, -.3f, .1f}, .3f, 0);
+    lamp.emitter = AreaEmitter{{3, 3, 3}};
+    scene.shapes.push_back(lamp);
+    scene.shapes.push_back(make_sphere({-.6f, -.6f, .2f}, .35f, mirror));
+    expect_agreement(scene, {request("path", 192), request("pppm", 24), request("vcm", 48)},
+                     {request("bdpt", 64), request("bpm", 24), request("upg", 64), request("pssmlt", 24), request("pssmlt", 24, "paths", "path"),
+                      request("sppm", 24), request("cppm", 24)},
+                     edge_bias);
+}
+
+TEST_P(Agreement, ManyLights)
+{
+    Scene scene = cornell_box(size);
+    const ShapeDescription ceiling_light = scene.shapes.back();
+    scene.shapes.pop_back();
+    for (int i = 0; i < 64; i++) {
+        const float x = -.85f + .24f * static_cast<float>(i % 8), z = -.85f + .24f * static_cast<float>(i / 8);
+        ShapeDescription light = make_quad({x, .98f, z}, {x + .02f, .98f, z}, {x + .02f, .98f, z + .02f}, {x, .98f, z + .02f}, ceiling_light.bsdf);
+        const float strength = 20.0f * static_cast<float>(1 + i * 37 % 64);
+        light.emitter = AreaEmitter{{strength, strength, strength}};
+        scene.shapes.push_back(light);
+    }
+    expect_agreement(scene, {request("path", 64, "light_choice", "tree"), request("ptracer", 16), request("vcm", 32)},
+                     {request("path", 64, "light_choice", "power"), request("bdpt", 32), request("bdpt", 32, "light_choice", "tree"), request("pppm", 16),
+                      request("bpm", 16), request("upg", 24), request("pssmlt", 16)},
+                     edge_bias);
+}
+
 // The box without ceiling, back wall and lamp, with a ball, under a turned map.
 Scene scene_under_a_map(std::shared_ptr<const TexelImage> image)
 {

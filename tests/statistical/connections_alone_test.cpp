@@ -66,7 +66,7 @@ private:
             subpaths_.shade(scene_, camera_paths_, pool_, key, techniques, {});
             if (edges == camera_edges_) {
                 drop_(camera_paths_.count(), static_cast<uint>(camera_paths_.count()), subpaths_.vertices);
-                connections_.connect(scene_, {pool_, camera_paths_, subpaths_, light_, key}, brought_);
+                connections_.connect(scene_, {pool_, subpaths_, light_, key}, brought_);
             }
             if (!pool_.keep_alive()) break;
             pool_.trace(scene_);

@@ -229,17 +229,22 @@ TEST(Motion, ResumedIsUninterrupted)
     std::filesystem::remove(file);
 }
 
-TEST(Motion, MethodsOfFixedHitPointsRefuseIt)
+TEST(Motion, MethodsWhosePathsOutliveAPassRefuseIt)
 {
     Scene scene = cornell_box(8);
     move_camera(scene, {{0.0, Transform()}, {1.0, Transform::translate({0.1, 0, 0})}});
     scene.sensor.shutter = {0, 1};
-    try {
-        render(scene, {"ppm", 1, {}}, 1);
-        FAIL() << "rendered";
-    } catch (const SceneError& error) {
-        EXPECT_NE(std::string(error.what()).find("-m sppm"), std::string::npos) << error.what();
+    for (const RenderRequest& request :
+         {RenderRequest{"ppm", 1, {}}, RenderRequest{"pssmlt", 1, {}}, RenderRequest{"psr", 1, {{"paths", "pssmlt"}}}}) {
+        try {
+            render(scene, request, 1);
+            FAIL() << request.method << " rendered";
+        } catch (const SceneError& error) {
+            EXPECT_NE(std::string(error.what()).find(request.method), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("-m sppm"), std::string::npos) << error.what();
+        }
     }
+    EXPECT_NO_THROW(render(scene, {"psr", 1, {}}, 1));
 }
 
 } // namespace

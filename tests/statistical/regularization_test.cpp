@@ -137,7 +137,7 @@ TEST(LongRegularization, OfPathFindsAllLightOfALampInGlass)
 TEST(Regularization, ChangesNothingWhereNothingIsSpecular)
 {
     const Scene scene = cornell_box(32);
-    EXPECT_EQ(render(scene, {"psr", 2, {}}, 5).pixels, render(scene, {"path", 2, {{"rr_depth", "2"}}}, 5).pixels);
+    EXPECT_EQ(render(scene, {"psr", 2, {}}, 5).pixels, render(scene, {"path", 2, {}}, 5).pixels);
     EXPECT_EQ(render(scene, {"psr", 2, {{"paths", "bdpt"}}}, 5).pixels, render(scene, {"bdpt", 2, {}}, 5).pixels);
 }
 
@@ -147,7 +147,7 @@ TEST(Regularization, LeavesLampsWithAnAreaAlone)
     Scene scene = cornell_box(32);
     const uint glass = add_bsdf(scene, DielectricBsdf{1.5f, 1.0f, false, {1, 1, 1}, {1, 1, 1}});
     scene.shapes.push_back(make_sphere({0, -.2f, 0}, .5f, glass));
-    EXPECT_EQ(render(scene, {"psr", 2, {{"angle", "90"}}}, 5).pixels, render(scene, {"path", 2, {{"rr_depth", "2"}}}, 5).pixels);
+    EXPECT_EQ(render(scene, {"psr", 2, {{"angle", "90"}}}, 5).pixels, render(scene, {"path", 2, {}}, 5).pixels);
 }
 
 } // namespace

@@ -81,20 +81,26 @@ protected:
     }
 
 private:
+    static constexpr std::size_t floats_per_draw = 13;
+
     template <class T> Buffer<T> upload_some(const std::vector<T>& data) { return upload(data.empty() ? std::vector<T>(1) : data); }
 
     std::vector<BsdfDraw> run(const ProbeScene& scene, const SurfaceSide& side, uint carries, uint count, const std::vector<Vec3>& given)
     {
         const auto shapes = upload(std::vector<Shape>{{scene.first, NO_LIGHT, 0, 0}});
-        const auto output = allocate<float>(std::size_t(10) * count);
+        const auto output = allocate<float>(floats_per_draw * count);
         const auto directions = upload_some(given);
         kernel_(count, upload(scene.bsdfs), upload_some(scene.principled), upload_some(scene.textures), upload_some(scene.texels), shapes, to_float(side.outgoing), to_float(side.geometric_normal), to_float(side.shading_normal), carries, count,
                 uint(given.empty() ? 0 : 1), directions, output);
         const auto values = output.download();
         std::vector<BsdfDraw> samples(count);
         for (std::size_t i = 0; i < count; ++i) {
-            const float* v = &values[10 * i];
+            const float* v = &values[floats_per_draw * i];
             samples[i] = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6], v[7], v[8], v[9]};
+            if (samples[i].absorbed()) continue;
+            // Both at once are what each is alone; the rounding of a narrow lobe's angle grows with its density.
+            EXPECT_NEAR(v[10], v[8], 1e-3 * v[8] + 1e-9) << "bsdf_densities, direction " << i;
+            EXPECT_NEAR(v[11], v[12], 1e-3 * v[12] + 1e-9) << "bsdf_densities, reverse, direction " << i;
         }
         return samples;
     }
@@ -128,12 +134,17 @@ private:
             BsdfSample sample = {(float3)(0.0f), (float3)(0.0f), 0.0f, 1.0f};
             if (given) sample.direction = unpack(directions[i]);
             else if (!bsdf_sample(&scattering, &surface, random4(i, 3u + carries), (int)carries, &sample)) sample.direction = (float3)(0.0f);
-            vstore3(sample.direction, 0, output + 10u * i);
-            vstore3(sample.weight, 0, output + 10u * i + 3u);
-            output[10u * i + 6u] = sample.pdf_w;
-            output[10u * i + 7u] = sample.eta_scale;
-            output[10u * i + 8u] = bsdf_pdf_w(&scattering, &surface, sample.direction);
-            output[10u * i + 9u] = bsdf_evaluate(&scattering, &surface, sample.direction, (int)carries).x;
+            const BsdfDensities densities = bsdf_densities(&scattering, &surface, sample.direction);
+            __global float* result = output + 13u * i;
+            vstore3(sample.direction, 0, result);
+            vstore3(sample.weight, 0, result + 3u);
+            result[6] = sample.pdf_w;
+            result[7] = sample.eta_scale;
+            result[8] = bsdf_pdf_w(&scattering, &surface, sample.direction);
+            result[9] = bsdf_evaluate(&scattering, &surface, sample.direction, (int)carries).x;
+            result[10] = densities.pdf_w;
+            result[11] = densities.reverse_pdf_w;
+            result[12] = bsdf_reverse_pdf_w(&scattering, &surface, sample.direction);
         })");
 };
 

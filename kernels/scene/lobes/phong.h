@@ -6,10 +6,11 @@
 #include "math/warp.h"
 #include "scene/scattering.h"
 
+// cos^n on the hemisphere about the mirrored direction: 0 beyond it also where n is 0.
 static inline float phong_power(const Scattering* scattering, float3 outgoing, float3 incoming)
 {
-    const float3 mirrored = 2.0f * scattering->cos_o * scattering->normal - outgoing;
-    return unit_power(clamp(dot(mirrored, incoming), 0.0f, 1.0f), scattering->alpha_u);
+    const float cosine = dot(2.0f * scattering->cos_o * scattering->normal - outgoing, incoming);
+    return cosine > 0.0f ? unit_power(fmin(cosine, 1.0f), scattering->alpha_u) : 0.0f;
 }
 
 static inline float3 evaluate_phong(const Scattering* scattering, float3 outgoing, float3 incoming)
@@ -19,8 +20,6 @@ static inline float3 evaluate_phong(const Scattering* scattering, float3 outgoin
 
 static inline float phong_pdf_w(const Scattering* scattering, float3 outgoing, float3 incoming)
 {
-    const float3 mirrored = 2.0f * scattering->cos_o * scattering->normal - outgoing;
-    if (dot(mirrored, incoming) <= 0.0f) return 0.0f;
     return (scattering->alpha_u + 1.0f) * (0.5f * INV_PI_F) * phong_power(scattering, outgoing, incoming);
 }
 
