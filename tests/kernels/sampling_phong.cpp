@@ -11,7 +11,7 @@ namespace
 using std::numbers::pi;
 
 const std::vector<double> angles = {0.0, 0.5, 1.1, 1.4};
-const std::vector<float> exponents = {0.0f, 0.05f, 1.0f, 3.0f, 40.0f};
+const std::vector<float> exponents = {1.0f, 3.0f, 40.0f};
 
 class Phong : public BsdfProbe
 {
@@ -50,8 +50,9 @@ TEST_F(Phong, ReflectsWhatItSays)
 TEST_F(Phong, IsTheModelInTheMean)
 {
     constexpr int count = 10'000;
-    for (const float exponent : exponents) {
-        for (const Vec3d i : {normalized({-0.4, -0.3, 0.8}), normalized({0.5, 0.1, 0.6})}) {
+    // Without an exponent, or hardly any, there is an edge where the cosine to the mirrored direction is 0.
+    for (const float exponent : {0.0f, 0.05f, 1.0f, 3.0f, 40.0f}) {
+        for (const Vec3d i : {normalized({0.95, 0.1, 0.1}), normalized({-0.4, -0.3, 0.8}), normalized({0.5, 0.1, 0.6})}) {
             const Vec3d o = direction_at(0.5);
             double sum = 0.0, squares = 0.0;
             for (const BsdfDraw& s : evaluate(phong(0.4f, 0.3f, exponent), {o}, std::vector<Vec3d>(count, i)))

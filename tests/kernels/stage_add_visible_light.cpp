@@ -28,7 +28,8 @@ TEST_P(AddVisibleLight, DoesAsPlainCode)
         if (is_certain(vertex, expected, doubt)) expect_radiance(path, expected.radiance);
     }
     expect_few_in_doubt();
-    expect_seen({"type 0 seen", "type 1 seen", "type 2 seen", "misses"});
+    expect_seen({"type 0 seen", "type 2 seen", "misses"});
+    expect_seen({"type 1 seen"}, 15.0); // lies on some thirty pixels
     if (GetParam().options.constant_light) expect_seen({"type 6 seen"});
 }
 

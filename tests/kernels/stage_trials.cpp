@@ -96,7 +96,7 @@ protected:
         const auto paths = upload(std::vector<PathState>(replicates, PathState{}));
         const auto flags = allocate<uint>(replicates);
         auto states = allocate<TrialState>(replicates);
-        Kernel(device_, "begin_trials", "Begin", scene_.surface_options())(replicates, scene_.surfaces(), radius, replicates, pairs, camera_vertices,
+        Kernel(device_, "begin_trials", "Begin", scene_.surface_options())(replicates, radius, replicates, pairs, camera_vertices,
                                                                            light_vertices, paths, occluded, radiance, states, flags);
         if (bound >= 0.0f) states.upload(std::vector<TrialState>(replicates, {0, 0.0f, 1.0f, bound}));
 
@@ -112,7 +112,7 @@ protected:
         while (!waiting.empty()) {
             const uint count = static_cast<uint>(waiting.size());
             const auto list = upload(waiting), ray_count = upload(std::vector<uint>{count * per_pair});
-            propose(count * per_pair, scene_.surfaces(), key_, rules, radius, count, per_pair, list, pairs, camera_vertices, light_vertices, states,
+            propose(count * per_pair, key_, rules, radius, count, per_pair, list, pairs, camera_vertices, light_vertices, states,
                     rays, trials);
             trace(count * per_pair, scene_.geometry(), rays, hits, ray_list, ray_count);
             judge(count, radius, count, per_pair, list, pairs, light_vertices, rays, hits, trials, states, flags);

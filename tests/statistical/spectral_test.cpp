@@ -296,7 +296,8 @@ TEST(Spectral, HitPointsStayWhereNothingDisperses)
             if (x > 0) edge += sees(0, x, y) != sees(0, x - 1, y);
         }
     }
-    EXPECT_GT(lit, 10);
+    // The lamp, foreshortened to hardly more than a row of pixels, is seen, and has an edge.
+    EXPECT_GT(lit, 4);
     EXPECT_GT(edge, 4);
 }
 
