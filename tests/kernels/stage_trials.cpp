@@ -148,7 +148,7 @@ protected:
         EXPECT_LT(a.standard_error, 0.02 * a.mean);
     }
 
-    const SamplerKey key_ = sampler_key(3, 1);
+    const SamplerKey key_ = sampler_key(3, 2);
     DeviceScene scene_{device_, floor_scene()};
 };
 

@@ -389,8 +389,8 @@ TEST_P(Agreement, ManyLights)
     scene.shapes.pop_back();
     for (int i = 0; i < 64; i++) {
         const float x = -.85f + .24f * static_cast<float>(i % 8), z = -.85f + .24f * static_cast<float>(i / 8);
-        ShapeDescription light = make_quad({x, .98f, z}, {x + .02f, .98f, z}, {x + .02f, .98f, z + .02f}, {x, .98f, z + .02f}, ceiling_light.bsdf);
-        const float strength = 20.0f * static_cast<float>(1 + i * 37 % 64);
+        ShapeDescription light = make_quad({x, .98f, z}, {x + .12f, .98f, z}, {x + .12f, .98f, z + .12f}, {x, .98f, z + .12f}, ceiling_light.bsdf);
+        const float strength = 0.25f * static_cast<float>(1 + i * 37 % 64);
         light.emitter = AreaEmitter{{strength, strength, strength}};
         scene.shapes.push_back(light);
     }
