@@ -71,6 +71,20 @@ TEST_F(CompactionStage, NothingKeptAndAllKept)
     EXPECT_EQ(shorter.download(), list);
 }
 
+// Rather than wrap, so that whoever reads the total can tell that there were too many.
+TEST_F(CompactionStage, CountsBeyond32BitsStayAtTheLargest)
+{
+    const std::vector<uint> items = {0x80000000u, 0x7fffffffu, 5u, 7u};
+    const auto item_count = upload(std::vector<uint>{static_cast<uint>(items.size())});
+    const auto chunk_counts = allocate<uint>(1), total = allocate<uint>(1);
+    Kernel(device_, "sum_item_counts", "Sum")(1, upload(items), item_count, 1u, chunk_counts);
+    EXPECT_EQ(chunk_counts.read(0), 0xffffffffu);
+    const auto counts = upload(items);
+    Kernel(device_, "scan_counts", "Scan").launch_grouped(1, 1, counts, 4u, 0u, total);
+    EXPECT_EQ(total.read(0), 0xffffffffu);
+    EXPECT_EQ(counts.download(), (std::vector<uint>{0u, 0x80000000u, 0xffffffffu, 0xffffffffu}));
+}
+
 TEST_F(CompactionStage, RecordsAreAppendedInOrderAndGrowWhenThereAreTooMany)
 {
     constexpr std::size_t batch = 1000, batches = 3;

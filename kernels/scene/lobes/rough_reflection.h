@@ -18,17 +18,7 @@ static inline float evaluate_rough_reflection(const Scattering* scattering, floa
     return microfacet_d(&m, h) * microfacet_g1(&m, o) * microfacet_g1(&m, i) / (4.0f * o.z * i.z);
 }
 
-static inline float rough_reflection_pdf_w(const Scattering* scattering, float3 outgoing, float3 incoming)
-{
-    const Frame frame = lobe_frame(scattering);
-    const float3 o = to_local(frame, outgoing), i = to_local(frame, incoming);
-    if (o.z <= 0.0f || i.z <= 0.0f) return 0.0f;
-    const Microfacets m = lobe_microfacets(scattering);
-    const float3 h = normalize(o + i);
-    return microfacet_d(&m, h) * microfacet_g1(&m, o) / (4.0f * o.z);
-}
-
-// The same, and as `reverse` the density of the outgoing direction for a path that comes from `incoming`.
+// Density (1/sr) of the incoming direction, and as `reverse` that of the outgoing one for a path that comes from `incoming`.
 static inline float rough_reflection_densities(const Scattering* scattering, float3 outgoing, float3 incoming, float* reverse)
 {
     const Frame frame = lobe_frame(scattering);
@@ -39,6 +29,12 @@ static inline float rough_reflection_densities(const Scattering* scattering, flo
     const float d = 0.25f * microfacet_d(&m, normalize(o + i));
     *reverse = d * microfacet_g1(&m, i) / i.z;
     return d * microfacet_g1(&m, o) / o.z;
+}
+
+static inline float rough_reflection_pdf_w(const Scattering* scattering, float3 outgoing, float3 incoming)
+{
+    float unused;
+    return rough_reflection_densities(scattering, outgoing, incoming, &unused);
 }
 
 // The weight is that of F = 1.
