@@ -1,5 +1,6 @@
 // Every method on every analytic scene: the image's mean against the answer that the scene file derives.
 
+#include "support/places.h"
 #include "support/render_replicates.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ constexpr int tests_in_file = 106; // bounds the family for the Bonferroni corre
 // The number after "answer:" in the scene's comment.
 double answer_of(const std::string& scene)
 {
-    std::ifstream file(std::string(SUNDOG_SOURCE_DIR) + "/scenes/analytic/" + scene + ".xml");
+    std::ifstream file(source_folder() / "scenes/analytic" / (scene + ".xml"));
     std::stringstream text;
     text << file.rdbuf();
     const auto at = text.str().find("\nanswer:");

@@ -2,6 +2,7 @@
 #include "cli/small_scene.h"
 #include "cli/sundog_process.h"
 #include "film/image_io.h"
+#include "support/places.h"
 
 #include <limits>
 
@@ -109,7 +110,7 @@ TEST_F(CliFiles, a_closed_standard_output_is_reported)
     std::ofstream full("/dev/full");
     if (!full) GTEST_SKIP() << "no /dev/full";
     write_grey("a.pfm", 3, 1.0f);
-    const std::string command = std::string("cd '") + folder.string() + "' && '" SUNDOG_EXECUTABLE "' compare a.pfm a.pfm > /dev/full 2> error.txt";
+    const std::string command = std::string("cd '") + folder.string() + "' && '" + test::sundog_executable().string() + "' compare a.pfm a.pfm > /dev/full 2> error.txt";
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 5);
     EXPECT_EQ(read("error.txt"), "sundog: error: cannot write to standard output\n");
 }

@@ -1,6 +1,7 @@
 // Runs the built executable in a folder of its own and tells what came of it.
 #pragma once
 
+#include "support/places.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -81,7 +82,7 @@ private:
     std::vector<char*> argv{const_cast<char*>("sundog")};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    ::execv(SUNDOG_EXECUTABLE, argv.data());
+    ::execv(test::sundog_executable().c_str(), argv.data());
     ::_exit(127);
 }
 

@@ -1,6 +1,7 @@
 // One program text from many files.
 #include "device/flatten.h"
 #include "device/kernel_sources.h"
+#include "support/places.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -38,7 +39,7 @@ TEST(DeviceSources, EmbedsEveryFileUnchanged)
     const auto names = kernel_source_names();
     EXPECT_TRUE(std::find(names.begin(), names.end(), "shared/vec3.h") != names.end());
     for (const auto name : names) {
-        std::ifstream file(std::string(SUNDOG_SOURCE_DIR "/kernels/") + std::string(name));
+        std::ifstream file(test::source_folder() / "kernels" / name);
         std::stringstream text;
         text << file.rdbuf();
         EXPECT_EQ(kernel_source(name), text.str()) << name;

@@ -4,6 +4,7 @@
 #include "cli/sundog_process.h"
 #include "film/image_io.h"
 #include "reference/agreement.h"
+#include "support/places.h"
 #include "support/render_replicates.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ using namespace sundog::test;
 namespace
 {
 
-const std::filesystem::path folder = std::filesystem::path(SUNDOG_SOURCE_DIR) / "tests/reference";
+const std::filesystem::path folder = source_folder() / "tests/reference";
 
 // Of all scenes together: the probability that a right renderer fails.
 constexpr double level_of_all = 0.01;

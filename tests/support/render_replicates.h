@@ -5,6 +5,7 @@
 #include "film/image.h"
 #include "import/mitsuba_xml.h"
 #include "render/session.h"
+#include "support/places.h"
 
 #include <cmath>
 #include <map>
@@ -22,7 +23,7 @@ inline Device& shared_device()
 
 inline Scene load_test_scene(const std::string& path, const std::map<std::string, std::string>& defines = {})
 {
-    return load_scene(std::string(SUNDOG_SOURCE_DIR) + "/scenes/" + path, {defines}).scene;
+    return load_scene(source_folder() / "scenes" / path, {defines}).scene;
 }
 
 // How one render of a test is made. Parameters as with --param.

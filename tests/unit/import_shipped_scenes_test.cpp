@@ -1,4 +1,5 @@
 // The scenes that come with Sundog load without a word, and the analytic ones state their answer.
+#include "support/places.h"
 #include "unit/scene_folder.h"
 
 #include <sstream>
@@ -11,7 +12,7 @@ using namespace sundog;
 std::vector<std::filesystem::path> scenes_in(const std::string& folder)
 {
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SUNDOG_SOURCE_DIR) / "scenes" / folder))
+    for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() / "scenes" / folder))
         if (entry.path().extension() == ".xml") files.push_back(entry.path());
     return files;
 }
@@ -50,7 +51,7 @@ TEST(ImportShippedScenes, AnalyticOnesHoldAnAnswerAndStayQuick)
 TEST(ImportShippedScenes, GalleryFilesAreSmall)
 {
     for (const char* folder : {"meshes", "textures"})
-        for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SUNDOG_SOURCE_DIR) / "scenes/gallery" / folder))
+        for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() / "scenes/gallery" / folder))
             EXPECT_LT(entry.file_size(), 1u << 20) << entry.path();
 }
 

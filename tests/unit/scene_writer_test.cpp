@@ -4,6 +4,7 @@
 #include "import/text_file.h"
 #include "scene/fingerprint.h"
 #include "scene/flat_scene.h"
+#include "support/places.h"
 #include "unit/scene_folder.h"
 
 #include <bit>
@@ -79,7 +80,7 @@ TEST(SceneWriter, ShippedScenes)
 {
     std::size_t scenes = 0;
     for (const char* name : {"gallery", "analytic"})
-        for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SUNDOG_SOURCE_DIR) / "scenes" / name)) {
+        for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() / "scenes" / name)) {
             if (entry.path().extension() != ".xml") continue;
             expect_same_after_writing(load_scene(entry.path(), {}).scene);
             scenes++;
