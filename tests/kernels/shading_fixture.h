@@ -4,6 +4,7 @@
 #include "stages/device_scene.h"
 #include "stages/sampling.h"
 #include "support/device_fixture.h"
+#include "support/photon_cloud.h"
 #include "support/plain_paths.h"
 #include "support/shading_scene.h"
 
@@ -214,10 +215,10 @@ protected:
         EXPECT_NEAR(got, expected, relative_error * std::abs(expected)) << what << " of path " << path;
     }
 
-    // Where the path goes on, and whether; `record`: it also left one that the flag tells of.
-    void expect_step(std::size_t item, uint path, const std::optional<PlainStep>& expected, bool record = false) const
+    // Where the path goes on, and whether. left: flags of what it also left.
+    void expect_step(std::size_t item, uint path, const std::optional<PlainStep>& expected, uint left = 0) const
     {
-        ASSERT_EQ(got_flags_[item], (expected ? PATH_ALIVE : 0) | (record ? PATH_DEPOSIT : 0)) << "path " << path;
+        ASSERT_EQ(got_flags_[item], (expected ? PATH_ALIVE : 0) | left) << "path " << path;
         if (!expected) return;
         const Ray& ray = next_rays_[path];
         const PathState& state = next_paths_[path];
@@ -265,6 +266,16 @@ protected:
         const uint edges_left = is_bounded(rules()) ? rules().max_depth - vertex.path.depth : UNBOUNDED_DEPTH;
         EXPECT_EQ(query.max_photon_depth, edges_left) << "path " << path;
         EXPECT_EQ(query.flags, 0u) << "path " << path;
+    }
+
+    // A photon, but for how it is marked. Directions and normals are packed, with the errors that frame.h promises.
+    static void expect_photon(uint path, const PlainVertex& vertex, const PlainSurface& surface, Vec3d flux, const Photon& photon)
+    {
+        expect_near("photon", path, photon.position, surface.position, point_error);
+        expect_colour("flux", path, photon.flux, flux);
+        EXPECT_LT(angle_between(unpacked_direction(photon.direction), -surface.outgoing), 1e-4 + direction_error) << "path " << path;
+        EXPECT_LT(angle_between(unpacked_normal(photon.normal_depth), surface.normal_seen()), 1.2e-3 + direction_error) << "path " << path;
+        EXPECT_EQ(photon.normal_depth >> PHOTON_DEPTH_SHIFT, std::min(vertex.path.depth, PHOTON_MAX_DEPTH)) << "path " << path;
     }
 
     PlainNumbers camera_numbers(uint path) const { return PlainNumbers::camera(key_, path); }

@@ -70,7 +70,15 @@ struct PlainArrival {
     double pdf_w;    // 0 for point-like lights
     PlainRay shadow_ray;
     uint type;
+    // Density of light subpaths at the surface, 1/m^2 across the direction, that start at the point (or in the direction) chosen.
+    double emitted_pdf_a;
 };
+
+// Of light subpaths that come from one direction: over the disk that faces the bounding sphere.
+inline double plain_distant_pdf_a(const SceneGlobals& globals)
+{
+    return 1.0 / (pi * double(globals.radius) * double(globals.radius));
+}
 
 inline PlainRay segment_between(Vec3d from, Vec3d to)
 {
@@ -107,7 +115,8 @@ inline std::optional<PlainArrival> arrival_from_area(const FlatScene& flat, cons
         pdf_w = probability / double(light.area) * dot(way, way) / cos_at_light;
     }
     const PlainRay shadow_ray = segment_between(surface.ray_origin(direction), point.off_surface(surface.offset));
-    return PlainArrival{direction, Vec3d(light.emission) / pdf_w, pdf_w, shadow_ray, light.type};
+    // p_point cos / pi / d^2 over p_point = pdf_w cos / d^2, which for a cone is not the density of the light subpath's point.
+    return PlainArrival{direction, Vec3d(light.emission) / pdf_w, pdf_w, shadow_ray, light.type, probability / (double(light.area) * pi * pdf_w)};
 }
 
 inline std::optional<PlainArrival> plain_arrival(const FlatScene& flat, const PlainSurface& surface, const LightNumbers& u, Doubt& doubt)
@@ -121,17 +130,18 @@ inline std::optional<PlainArrival> plain_arrival(const FlatScene& flat, const Pl
         const Vec3d way = Vec3d(light.position) - surface.position, direction = normalized(way);
         const double falloff = light.type == LIGHT_SPOT ? plain_spot_falloff(light, -dot(direction, light.direction), doubt) : 1.0;
         if (falloff == 0.0) return {};
+        const double emitted = light.type == LIGHT_SPOT ? 2.0 * pi * (1.0 - std::cos(double(light.cutoff_angle))) : 4.0 * pi; // sr
         return PlainArrival{direction, emission * (falloff / (dot(way, way) * probability)), 0.0,
-                            segment_between(surface.ray_origin(direction), light.position), light.type};
+                            segment_between(surface.ray_origin(direction), light.position), light.type, 1.0 / (emitted * dot(way, way))};
     }
     case LIGHT_DIRECTIONAL: {
         const Vec3d direction = -Vec3d(light.direction);
-        return PlainArrival{direction, emission / probability, 0.0, surface.ray(direction), light.type};
+        return PlainArrival{direction, emission / probability, 0.0, surface.ray(direction), light.type, plain_distant_pdf_a(flat.globals)};
     }
     case LIGHT_CONSTANT: {
         const Vec3d direction = plain_sphere(u.position);
         const double pdf_w = probability / (4.0 * pi);
-        return PlainArrival{direction, emission / pdf_w, pdf_w, surface.ray(direction), light.type};
+        return PlainArrival{direction, emission / pdf_w, pdf_w, surface.ray(direction), light.type, plain_distant_pdf_a(flat.globals)};
     }
     default:
         return arrival_from_area(flat, light, surface, u.position, doubt);

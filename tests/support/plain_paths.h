@@ -234,6 +234,8 @@ inline PlainOutcome plain_photon_vertex(const PlainScene& scene, const PlainVert
 struct PlainSplat {
     PlainShadow shadow;
     std::array<int, 2> pixel; // of the crop
+    double pdf_a;             // 1/m^2, with which a camera subpath of one pixel meets the surface there
+    Vec3d direction;          // unit, to the lens
 };
 
 // [Veach 1997, section 8.3.2]: flux, f, the two cosines over the squared distance, and the importance of the lens.
@@ -253,10 +255,11 @@ inline std::optional<PlainSplat> plain_splat(const PlainScene& scene, const Plai
     if (is_black(f)) return {};
     const double cosine = std::abs(dot(direction, surface.geometric_normal));
     doubt.rests_on(cosine, 1e-2);
-    const double scale = plain_irradiance_scale(surface, doubt) * cosine / dot(way, way) * view->film_density * x.weight * y.weight;
+    const double pdf_a = cosine / dot(way, way) * view->film_density;
+    const double scale = plain_irradiance_scale(surface, doubt) * pdf_a * x.weight * y.weight;
     // The shadow ray ends at the plane of the near clip, whose distance from the lens is a share of the depth.
     const Vec3d origin = surface.ray_origin(direction);
-    return PlainSplat{{{origin, view->lens - origin, 1.0 - double(camera.near_clip) / view->depth}, flux * f * scale}, pixel};
+    return PlainSplat{{{origin, view->lens - origin, 1.0 - double(camera.near_clip) / view->depth}, flux * f * scale}, pixel, pdf_a, direction};
 }
 
 // Light tracing: every vertex that is not specular is connected to the lens.
