@@ -9,13 +9,6 @@
 namespace sundog
 {
 
-// A vertex that can be joined, as plain code and as the device's record of it.
-struct JoinableVertex {
-    PlainSurface surface;
-    PlainSide side;
-    PathVertex record;
-};
-
 class SubpathStage : public ShadingStage
 {
 protected:
@@ -62,6 +55,8 @@ protected:
     {
         const bool connects = techniques.connect > 0.0f, merges = techniques.merge > 0.0f;
         start_light_subpaths(techniques);
+        left_photons_.clear();
+        left_photon_vertices_.clear();
         const auto filter = upload(std::vector{plain_.filter});
         const auto pixels = pixels_by_path(plain_.camera.crop_width, plain_.camera.crop_height);
         const std::size_t slots = std::size_t(light_paths) * bounces;
@@ -115,6 +110,8 @@ protected:
                 EXPECT_EQ(next_last[path], links_here ? slot : last[path]) << "path " << path;
                 if (connects) expect_link(path, got_links[slot], links_here, last[path], got_links);
                 if (merges && expected.joins) {
+                    left_photons_.push_back(photons[item]);
+                    left_photon_vertices_.push_back(photon_vertices[item]);
                     expect_photon(path, vertex, *expected.surface, expected.flux, photons[item]);
                     expect_number("photon's vcm", path, photon_vertices[item].vcm, expected.at.vcm, weight_error);
                     expect_number("photon's vm", path, photon_vertices[item].vm, expected.at.vm, weight_error);
@@ -126,6 +123,10 @@ protected:
             });
         return joinable;
     }
+
+    // What light subpaths have left for merging, in order. Of the last follow_light_subpaths.
+    std::vector<Photon> left_photons_;
+    std::vector<PhotonVertex> left_photon_vertices_;
 
     // Products of colours' errors with those of a squared distance and a cosine.
     static constexpr double weight_error = 2.0 * colour_error;

@@ -72,8 +72,8 @@ inline BruteForce brute_force(const std::vector<Photon>& photons, const GatherQu
 class PhotonCloud
 {
 public:
-    PhotonCloud(Device& device, const Bounds& bounds, std::size_t capacity)
-        : device_(&device), compaction_(device, capacity), records_(device, "photons", capacity), map(device, bounds)
+    PhotonCloud(Device& device, const Bounds& bounds, std::size_t capacity, bool keeps_order = false)
+        : device_(&device), compaction_(device, capacity), records_(device, "photons", capacity), map(device, bounds, keeps_order)
     {
     }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shared/bidirectional.h"
+#include "support/photon_cloud.h"
 #include "support/plain_paths.h"
 
 #include <algorithm>
@@ -211,6 +212,65 @@ inline PlainSubpathVertex plain_light_subpath_vertex(const PlainScene& scene, co
         here.next = plain_light_step(vertex.path, *here.surface, *here.side, rules, numbers.scatter(depth, 2), doubt);
     plain_leave(techniques, here, doubt);
     return here;
+}
+
+// --- Joints -------------------------------------------------------------------------------------------------------------
+
+// A vertex of a subpath in memory: what the device has written of it, on the surface that plain code has found there.
+struct JoinableVertex {
+    PlainSurface surface;
+    PlainSide side;
+    PathVertex record;
+};
+
+// Two vertices connected, weighed against all other ways to make the path [Georgiev 2012, eqs. 42 and 43]. scale: of a list of
+// connections that holds more or fewer than all.
+inline std::optional<PlainShadow> plain_connection(const JoinableVertex& seen, const JoinableVertex& lit, const PathRules& rules, double scale,
+                                                   Doubt& doubt)
+{
+    if (!allows(rules, seen.record.depth + lit.record.depth + 1)) return {};
+    const Vec3d way = lit.surface.position - seen.surface.position, direction = normalized(way);
+    const double distance_squared = dot(way, way);
+    doubt.rests_on(length(way), 1e-2);
+    const Vec3d f = plain_evaluate(seen.side, seen.surface, direction, doubt) * plain_evaluate(lit.side, lit.surface, -direction, doubt);
+    if (is_black(f)) return {};
+    const double cos_seen = plain_cosine(direction, seen.surface.geometric_normal, doubt);
+    const double cos_lit = plain_cosine(direction, lit.surface.geometric_normal, doubt);
+    const double from_camera = plain_pdf_w(seen.side, direction), from_light = plain_pdf_w(lit.side, -direction);
+    for (const double pdf_w : {from_camera, from_light}) doubt.rests_on(pdf_w, 1e-2);
+    const double light_share = plain_connection_share(PlainWeights(lit.record.weights), lit.record.merge, from_camera * cos_lit / distance_squared,
+                                                      plain_reverse_pdf_w(lit.side));
+    const double camera_share = plain_connection_share(PlainWeights(seen.record.weights), seen.record.merge,
+                                                       from_light * cos_seen / distance_squared, plain_reverse_pdf_w(seen.side));
+    const Vec3d throughput = Vec3d(seen.record.throughput) * Vec3d(lit.record.throughput);
+    const double geometry = dot(direction, seen.side.normal) * cos_lit / distance_squared; // the light's flux is about its shading normal
+    const Vec3d origin = seen.surface.ray_origin(direction);
+    return PlainShadow{segment_between(origin, lit.surface.ray_origin(-direction)),
+                       throughput * f * (geometry * scale / (1.0 + light_share + camera_share))};
+}
+
+// Radiance that photons within the radius bring to a camera vertex, by the kernel (n + 1) / (pi r^2) (1 - t^2)^n, each photon
+// weighed as a merge [Georgiev 2012, eqs. 38 and 39].
+inline Vec3d plain_merging(const JoinableVertex& vertex, const std::vector<Photon>& photons, const std::vector<PhotonVertex>& brought,
+                           const PathRules& rules, const Techniques& techniques, double radius, int kernel, Doubt& doubt)
+{
+    const PlainWeights at(vertex.record.weights);
+    const double inverse_merge = techniques.inverse_merge;
+    const double camera_share = at.vcm * inverse_merge + plain_reverse_pdf_w(vertex.side) * at.vm;
+    Vec3d sum;
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        const double t = length(Vec3d(photons[i].position) - Vec3d(vertex.record.position)) / radius;
+        if (t > 1.0 + Doubt::rounding || !allows(rules, vertex.record.depth + (photons[i].normal_depth >> PHOTON_DEPTH_SHIFT))) continue;
+        if (!doubt.less(0.7, dot(unpacked_normal(photons[i].normal_depth), vertex.surface.normal_seen()))) continue;
+        if (!doubt.less(t, 1.0)) continue;
+        const Vec3d direction = -unpacked_direction(photons[i].direction);
+        doubt.rests_on(dot(direction, vertex.side.normal), 1e-3); // below it the kernel bounds the factor of a normal map
+        const Vec3d f = plain_evaluate(vertex.side, vertex.surface, direction, doubt);
+        const double light_share = double(brought[i].vcm) * inverse_merge + plain_pdf_w(vertex.side, direction) * double(brought[i].vm);
+        const double shape = (kernel + 1) / pi * std::pow(1.0 - t * t, kernel);
+        sum = sum + f * Vec3d(photons[i].flux) * (shape / (1.0 + light_share + camera_share));
+    }
+    return Vec3d(vertex.record.throughput) * sum / (radius * radius * double(techniques.light_paths));
 }
 
 } // namespace sundog
