@@ -83,20 +83,21 @@ protected:
         const uint stride = cloud.map.grid().stride;
         const auto photon_count = upload(std::vector{static_cast<uint>(left_photons_.size())});
         auto weights = allocate<float>(2 * std::size_t(stride));
-        Kernel(device_, "reorder_merge_weights", "Lay out")(left_photons_.size(), upload(left_photon_vertices_), cloud.map.order(), photon_count, stride,
-                                                            weights);
+        Kernel(device_, "reorder_merge_weights", "Lay out")(left_photons_.size(), upload(left_photon_vertices_), cloud.map.order(),
+                                                            photon_count, stride, weights);
         radiance_ = upload(std::vector<Vec3>(count, radiance_before));
         BuildOptions options = options_;
         options.defines.emplace_back("DENSITY_KERNEL", std::to_string(kernel));
-        Kernel(device_, "merge_photons", "Merge", options)(count, cloud.map.grid(), cloud.map.cell_ends(), cloud.map.cell_ends_offset(),
-                                                           cloud.map.streams(), weights, rules(), techniques, radius, upload(active),
-                                                           upload(std::vector{static_cast<uint>(count)}), upload(flags), upload(records), radiance_);
+        Kernel(device_, "merge_photons", "Merge", options)(
+            count, cloud.map.grid(), cloud.map.cell_ends(), cloud.map.cell_ends_offset(), cloud.map.streams(), weights, rules(), techniques,
+            radius, upload(active), upload(std::vector{static_cast<uint>(count)}), upload(flags), upload(records), radiance_);
         got_radiance_ = radiance_.download();
         int certain = 0, lit = 0;
         for (std::size_t i = 0; i < count && !HasFailure(); ++i) {
             Doubt doubt;
             Vec3d expected;
-            if (flags[i] & PATH_JOINS) expected = plain_merging(vertices[i], left_photons_, left_photon_vertices_, rules(), techniques, radius, kernel, doubt);
+            if (flags[i] & PATH_JOINS)
+                expected = plain_merging(vertices[i], left_photons_, left_photon_vertices_, rules(), techniques, radius, kernel, doubt);
             if (doubt) continue;
             ++certain;
             lit += is_black(expected) ? 0 : 1;

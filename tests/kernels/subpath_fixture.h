@@ -30,8 +30,8 @@ protected:
         follow_paths(
             [&](std::size_t items) {
                 before = subpaths_.download();
-                shade(items, scene_.surfaces(), plain_.camera, key_, rules(), techniques, Regularization{}, hits_, active_, active_count_, rays_,
-                      paths_, subpaths_, radiance_, shadow_rays_, shadow_radiance_, vertices, flags_);
+                shade(items, scene_.surfaces(), plain_.camera, key_, rules(), techniques, Regularization{}, hits_, active_, active_count_,
+                      rays_, paths_, subpaths_, radiance_, shadow_rays_, shadow_radiance_, vertices, flags_);
                 next_subpaths_ = subpaths_.download();
                 records = vertices.download();
             },
@@ -80,8 +80,8 @@ protected:
                 before = subpaths_.download();
                 last = last_vertices_.download();
                 shade(items, scene_.surfaces(), plain_.camera, filter, key_, rules(), techniques, light_paths, first_slot, hits_, active_,
-                      active_count_, rays_, paths_, subpaths_, vertices, links, last_vertices_, shadow_rays_, splat_deposits, photon_deposits,
-                      photon_vertex_deposits, flags_);
+                      active_count_, rays_, paths_, subpaths_, vertices, links, last_vertices_, shadow_rays_, splat_deposits,
+                      photon_deposits, photon_vertex_deposits, flags_);
                 next_subpaths_ = subpaths_.download();
                 next_last = last_vertices_.download();
                 records = vertices.download(first_slot, items);
@@ -146,8 +146,8 @@ private:
         reserve(light_paths);
         subpaths_ = allocate<Subpath>(light_paths);
         last_vertices_ = allocate<uint>(light_paths);
-        Kernel(device_, "emit_light_subpaths", "Emit", options_)(light_paths, scene_.surfaces(), key_, techniques, light_paths, rays_, paths_,
-                                                                 subpaths_, active_, last_vertices_);
+        Kernel(device_, "emit_light_subpaths", "Emit", options_)(light_paths, scene_.surfaces(), key_, techniques, light_paths, rays_,
+                                                                 paths_, subpaths_, active_, last_vertices_);
         leave_some_out(light_paths);
     }
 
@@ -156,7 +156,8 @@ private:
         if (expected.next) expect_weights("leaving", path, next_subpaths_[path].weights, expected.leaving);
     }
 
-    static void expect_vertex(uint path, const PlainVertex& vertex, const PlainSubpathVertex& expected, const PathVertex& got, double eta_scale)
+    static void expect_vertex(uint path, const PlainVertex& vertex, const PlainSubpathVertex& expected, const PathVertex& got,
+                              double eta_scale)
     {
         expect_near("vertex", path, got.position, expected.surface->position, point_error);
         expect_number("offset", path, got.offset, expected.surface->offset, 1e-6);

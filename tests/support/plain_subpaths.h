@@ -100,8 +100,8 @@ inline double plain_camera_pdf_a(const Camera& camera, Vec3d direction, double d
 
 // Radiance that the path finds itself, weighed against next-event estimation, and against light subpaths that end anywhere
 // along it. What the camera sees, only it finds.
-inline Vec3d plain_weighted_emission(const PlainScene& scene, const PlainVertex& vertex, const PlainSubpathVertex& here, const PathWeights& carried,
-                                     Doubt& doubt)
+inline Vec3d plain_weighted_emission(const PlainScene& scene, const PlainVertex& vertex, const PlainSubpathVertex& here,
+                                     const PathWeights& carried, Doubt& doubt)
 {
     const Light* light = here.surface ? plain_light_at(scene, *here.surface) : plain_environment(scene);
     if (!light) return {};
@@ -113,14 +113,15 @@ inline Vec3d plain_weighted_emission(const PlainScene& scene, const PlainVertex&
     }
     const double cosine = plain_cosine(here.surface->outgoing, here.surface->geometric_normal, doubt);
     const double distance = plain_distance(vertex, *here.surface, doubt);
-    const double connected = plain_light_pdf_w(scene.flat, *light, *here.surface, vertex.ray.origin, doubt) * cosine / (distance * distance);
+    const double connected =
+        plain_light_pdf_w(scene.flat, *light, *here.surface, vertex.ray.origin, doubt) * cosine / (distance * distance);
     const double emitted = double(light->probability) / double(light->area) * cosine / pi;
     return emission / (1.0 + connected * here.at.vcm + emitted * here.at.vc);
 }
 
 // [Georgiev 2012, eqs. 44 and 45].
-inline std::optional<PlainShadow> plain_weighted_direct_light(const PlainScene& scene, const PlainSubpathVertex& here, const LightNumbers& u,
-                                                              Doubt& doubt)
+inline std::optional<PlainShadow> plain_weighted_direct_light(const PlainScene& scene, const PlainSubpathVertex& here,
+                                                              const LightNumbers& u, Doubt& doubt)
 {
     const auto arrival = plain_arrival(scene.flat, *here.surface, u, doubt);
     if (!arrival) return {};
@@ -131,11 +132,13 @@ inline std::optional<PlainShadow> plain_weighted_direct_light(const PlainScene& 
     const double found = arrival->pdf_w > 0.0 ? plain_pdf_w(*here.side, arrival->direction) / arrival->pdf_w : 0.0;
     const double camera_share =
         plain_connection_share(here.at, here.merge, arrival->emitted_pdf_a * at_surface, plain_reverse_pdf_w(*here.side));
-    return PlainShadow{arrival->shadow_ray, here.throughput * f * arrival->radiance * (cosine / (1.0 + found + camera_share)), arrival->type};
+    return PlainShadow{arrival->shadow_ray, here.throughput * f * arrival->radiance * (cosine / (1.0 + found + camera_share)),
+                       arrival->type};
 }
 
 inline PlainSubpathVertex plain_camera_subpath_vertex(const PlainScene& scene, const PlainVertex& vertex, const PathWeights& carried,
-                                                      const PathRules& rules, Techniques techniques, const PlainNumbers& numbers, Doubt& doubt)
+                                                      const PathRules& rules, Techniques techniques, const PlainNumbers& numbers,
+                                                      Doubt& doubt)
 {
     PlainSubpathVertex here;
     const uint depth = vertex.path.depth;
@@ -180,7 +183,8 @@ inline double plain_connect_ratio(const FlatScene& flat, const Light& light, con
 
 // A light subpath's vertex. It is connected to the lens, and leaves a photon (with `flux`) where techniques merge.
 inline PlainSubpathVertex plain_light_subpath_vertex(const PlainScene& scene, const PlainVertex& vertex, const Subpath& carried,
-                                                     const PathRules& rules, const Techniques& techniques, const PlainNumbers& numbers, Doubt& doubt)
+                                                     const PathRules& rules, const Techniques& techniques, const PlainNumbers& numbers,
+                                                     Doubt& doubt)
 {
     PlainSubpathVertex here;
     const uint depth = vertex.path.depth;
@@ -203,8 +207,8 @@ inline PlainSubpathVertex plain_light_subpath_vertex(const PlainScene& scene, co
             here.splat = plain_splat(scene, *here.surface, *here.side, vertex.path.throughput, numbers.lens(depth), doubt);
     }
     if (here.splat) {
-        const double share = plain_connection_share(here.at, techniques.merge_unconnected, here.splat->pdf_a / double(techniques.light_paths),
-                                                    plain_reverse_pdf_w(*here.side));
+        const double share = plain_connection_share(here.at, techniques.merge_unconnected,
+                                                    here.splat->pdf_a / double(techniques.light_paths), plain_reverse_pdf_w(*here.side));
         here.splat->shadow.value = here.splat->shadow.value / (1.0 + share); // [Georgiev 2012, eq. 46]
         here.shadow = here.splat->shadow;
     }
@@ -225,8 +229,8 @@ struct JoinableVertex {
 
 // Two vertices connected, weighed against all other ways to make the path [Georgiev 2012, eqs. 42 and 43]. scale: of a list of
 // connections that holds more or fewer than all.
-inline std::optional<PlainShadow> plain_connection(const JoinableVertex& seen, const JoinableVertex& lit, const PathRules& rules, double scale,
-                                                   Doubt& doubt)
+inline std::optional<PlainShadow> plain_connection(const JoinableVertex& seen, const JoinableVertex& lit, const PathRules& rules,
+                                                   double scale, Doubt& doubt)
 {
     if (!allows(rules, seen.record.depth + lit.record.depth + 1)) return {};
     const Vec3d way = lit.surface.position - seen.surface.position, direction = normalized(way);
@@ -238,8 +242,8 @@ inline std::optional<PlainShadow> plain_connection(const JoinableVertex& seen, c
     const double cos_lit = plain_cosine(direction, lit.surface.geometric_normal, doubt);
     const double from_camera = plain_pdf_w(seen.side, direction), from_light = plain_pdf_w(lit.side, -direction);
     for (const double pdf_w : {from_camera, from_light}) doubt.rests_on(pdf_w, 1e-2);
-    const double light_share = plain_connection_share(PlainWeights(lit.record.weights), lit.record.merge, from_camera * cos_lit / distance_squared,
-                                                      plain_reverse_pdf_w(lit.side));
+    const double light_share = plain_connection_share(PlainWeights(lit.record.weights), lit.record.merge,
+                                                      from_camera * cos_lit / distance_squared, plain_reverse_pdf_w(lit.side));
     const double camera_share = plain_connection_share(PlainWeights(seen.record.weights), seen.record.merge,
                                                        from_light * cos_seen / distance_squared, plain_reverse_pdf_w(seen.side));
     const Vec3d throughput = Vec3d(seen.record.throughput) * Vec3d(lit.record.throughput);
