@@ -1,8 +1,7 @@
 // Light vertices within a distance of a point, found through the photons that lie on them.
 #ifndef SUNDOG_NEAR_PHOTONS_H
 #define SUNDOG_NEAR_PHOTONS_H
-#include "density/photon_grid.h"
-#include "density/wanted_photons.h"
+#include "density/photon_lanes.h"
 #include "shared/bidirectional.h"
 #include "shared/path.h"
 #include "shared/ray.h"
@@ -20,16 +19,12 @@ static inline float3 hit_position(Ray ray, float t) { return fma((float3)(t), un
 // The same test, of the same numbers, wherever a point is asked for.
 static inline bool in_ball(float3 offset, float radius) { return fma(offset.x, offset.x, fma(offset.y, offset.y, offset.z * offset.z)) < radius * radius; }
 
-// Lanes of eight photons of a run that lie in the ball and on a vertex. slots: of all photons, in the map's order.
-static inline int near_lanes(__global const float* streams, __global const uint* slots, uint stride, PhotonRun run, uint i, float3 position,
-                             float radius)
+static inline float8 lengths_in_ball(Offset8 offset) { return fma(offset.x, offset.x, fma(offset.y, offset.y, offset.z * offset.z)); }
+
+// Bits of those of eight photons that lie on a vertex. slots: of all photons, in the map's order.
+static inline int lanes_on_vertices(__global const uint* slots, Photons8 photons)
 {
-    const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
-    const Offset8 offset = photon_offsets(streams, stride, i, position);
-    const float8 squared = fma(offset.x, offset.x, fma(offset.y, offset.y, offset.z * offset.z));
-    const int8 mask = (squared < radius * radius) & (lane < (int8)((int)(run.end - i)));
-    if (!mask8(mask)) return 0;
-    return mask8(mask & (vload8(0, slots + i) != (uint8)(NO_VERTEX)));
+    return mask8(photons.mask & (vload8(0, slots + photons.first) != (uint8)(NO_VERTEX)));
 }
 
 #endif

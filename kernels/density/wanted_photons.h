@@ -39,18 +39,6 @@ static inline int8 on_same_side(uint8 packed, float3 normal, bool both_sides, fl
     return ((cosine > 0.0f) | (int8)(both_sides ? -1 : 0)) & (cosine * cosine > (least * least) * (m.x * m.x + m.y * m.y + m.z * m.z));
 }
 
-static inline float8 load_stream(__global const float* streams, uint stream, uint stride, uint i) { return vload8(0, streams + (size_t)stream * stride + i); }
-
-// From a position to eight photons.
-static inline Offset8 photon_offsets(__global const float* streams, uint stride, uint i, float3 position)
-{
-    const Offset8 offset = {load_stream(streams, PHOTON_X, stride, i) - position.x, load_stream(streams, PHOTON_Y, stride, i) - position.y,
-                            load_stream(streams, PHOTON_Z, stride, i) - position.z};
-    return offset;
-}
-
-static inline float8 squared_lengths(Offset8 offset) { return offset.x * offset.x + offset.y * offset.y + offset.z * offset.z; }
-
 // Lanes that the query asks for, whose photons make no path too long.
 static inline int8 wanted(uint8 normal_depth, const GatherQuery* query)
 {

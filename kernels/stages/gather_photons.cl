@@ -3,10 +3,8 @@
 // sums (zero where there is no query). One work-item a query; eight photons at a time. The estimator
 // (kernels/estimators) is the program's prelude. -D WIDE_QUERIES=1: radii may exceed the one that the grid was built for,
 // which is dense. Used by the photon mapping methods.
-#include "density/flux8.h"
-#include "density/photon_grid.h"
+#include "density/photon_lanes.h"
 #include "density/wanted_photons.h"
-#include "math/simd8.h"
 #include "shared/bsdf.h"
 // -D GATHERS_LOBES=1 where queries may come from lobes other than diffuse ones.
 #if GATHERS_LOBES
@@ -38,51 +36,53 @@ static inline Flux8 scattered_flux(Flux8 flux, uint8 directions, int8 mask, __gl
 }
 #endif
 
-// The estimate goes in and comes out by value, so that it stays in registers through the loop.
-static inline Estimate gather_run(PhotonRun run, const GatherQuery* query, __global const LobeRecord* lobe, __global const float* streams, uint stride, Estimate estimate)
+typedef struct Gathering {
+    float3 position;
+    float inverse_radius_squared;
+    const GatherQuery* query;
+    __global const LobeRecord* lobe;
+    Estimate estimate;
+} Gathering;
+#define VISITOR Gathering
+
+// Squares are shares of the radius'.
+static inline int8 visitor_reach(const Gathering* gathering, Offset8 offset, float8* squares)
 {
-    const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
-    const float3 position = unpack(query->position);
-    const float inverse_radius_squared = 1.0f / (query->radius * query->radius);
-    for (uint i = run.begin; i < run.end; i += 8u) {
-        const Offset8 offset = photon_offsets(streams, stride, i, position);
-        const float8 t_squared = squared_lengths(offset) * inverse_radius_squared;
-        int8 mask = (t_squared < 1.0f) & (lane < (int8)((int)(run.end - i)));
-        if (!mask8(mask)) continue;
-        const uint8 normal_depth = as_uint8(load_stream(streams, PHOTON_NORMAL_DEPTH, stride, i));
-        mask &= wanted(normal_depth, query);
-        Flux8 flux = {load_stream(streams, PHOTON_RED, stride, i), load_stream(streams, PHOTON_GREEN, stride, i), load_stream(streams, PHOTON_BLUE, stride, i)};
-#if GATHERS_LOBES
-        if (query->flags & QUERY_EVALUATES_LOBE)
-            flux = scattered_flux(flux, as_uint8(load_stream(streams, PHOTON_DIRECTION, stride, i)), mask, lobe);
-#endif
-        estimator_add(&estimate, mask, offset, t_squared, flux.red, flux.green, flux.blue);
-    }
-    return estimate;
+    *squares = squared_lengths(offset) * gathering->inverse_radius_squared;
+    return *squares < 1.0f;
 }
 
-__kernel void gather_photons(PhotonGrid grid, __global const uint* restrict cell_ends, uint cell_ends_offset, __global const float* restrict streams,
-                             __global const GatherQuery* restrict queries, __global const LobeRecord* restrict query_lobes, uint count, __global ESTIMATOR_RESULT* restrict sums)
+static inline Gathering visit(Gathering gathering, const PhotonMap* map, Photons8 photons)
+{
+    const int8 mask = photons.mask & wanted(as_uint8(load_stream(map, PHOTON_NORMAL_DEPTH, photons.first)), gathering.query);
+    Flux8 flux = load_flux(map, photons.first);
+#if GATHERS_LOBES
+    if (gathering.query->flags & QUERY_EVALUATES_LOBE)
+        flux = scattered_flux(flux, as_uint8(load_stream(map, PHOTON_DIRECTION, photons.first)), mask, gathering.lobe);
+#endif
+    estimator_add(&gathering.estimate, mask, photons.offset, photons.squares, flux.red, flux.green, flux.blue);
+    return gathering;
+}
+
+#include "density/visit_photons.h"
+
+__kernel void gather_photons(MAP_PARAMETERS, __global const GatherQuery* restrict queries, __global const LobeRecord* restrict query_lobes, uint count,
+                             __global ESTIMATOR_RESULT* restrict sums)
 {
     const uint index = get_global_id(0);
     if (index >= count) return;
     const GatherQuery query = queries[index];
     ESTIMATOR_RESULT sum = {{0.0f}};
     if (query.radius > 0.0f) {
-        const float3 position = unpack(query.position);
-        Estimate estimate;
-        estimator_begin(&estimate, &query);
+        const PhotonMap map = MAP_VIEW;
+        Gathering gathering = {unpack(query.position), 1.0f / (query.radius * query.radius), &query, query_lobes + index};
+        estimator_begin(&gathering.estimate, &query);
 #if WIDE_QUERIES
-        const CellRange range = cells_within(&grid, position, query.radius);
-        for (uint z = range.z0; z <= range.z1; ++z)
-            for (uint y = range.y0; y <= range.y1; ++y)
-                estimate = gather_run(row_run(&grid, cell_ends + cell_ends_offset, &range, y, z), &query, query_lobes + index, streams, grid.stride, estimate);
+        gathering = visit_photons_within(gathering, &map, query.radius);
 #else
-        PhotonRun runs[8];
-        const uint run_count = find_photon_runs(&grid, cell_ends + cell_ends_offset, position, runs);
-        for (uint i = 0u; i < run_count; ++i) estimate = gather_run(runs[i], &query, query_lobes + index, streams, grid.stride, estimate);
+        gathering = visit_photons(gathering, &map);
 #endif
-        sum = estimator_end(&estimate, query.radius);
+        sum = estimator_end(&gathering.estimate, query.radius);
     }
     sums[index] = sum;
 }

@@ -3,28 +3,46 @@
 // first place; writes those pairs whose places lie in [window, window + capacity). One work-item an active path. Used by upg.
 #include "density/near_photons.h"
 
-__kernel void list_near_photons(PhotonGrid grid, __global const uint* restrict cell_ends, uint cell_ends_offset,
-                                __global const float* restrict streams, __global const uint* restrict slots, float radius,
-                                __global const uint* restrict active, __global const uint* restrict active_count,
-                                __global const Ray* restrict rays, __global const Hit* restrict hits, __global const uint* restrict firsts,
-                                uint window, uint capacity, __global VertexPair* restrict pairs)
+// Pairs are numbered from `place` on.
+typedef struct Listing {
+    float3 position;
+    float radius;
+    __global const uint* slots;
+    __global VertexPair* pairs;
+    uint path, place, end, window, capacity;
+} Listing;
+#define VISITOR Listing
+
+static inline int8 visitor_reach(const Listing* listing, Offset8 offset, float8* squares)
+{
+    *squares = lengths_in_ball(offset);
+    return *squares < listing->radius * listing->radius;
+}
+
+static inline Listing visit(Listing listing, const PhotonMap* map, Photons8 photons)
+{
+    int lanes = lanes_on_vertices(listing.slots, photons);
+    for (; lanes != 0 && listing.place < listing.end; lanes &= lanes - 1, ++listing.place) {
+        const VertexPair pair = {listing.path, listing.slots[photons.first + (uint)first_lane(lanes)]};
+        const uint place = listing.place - listing.window; // unsigned: beyond the capacity also where it is below the window
+        if (place < listing.capacity) listing.pairs[place] = pair;
+    }
+    return listing;
+}
+
+#include "density/visit_photons.h"
+
+__kernel void list_near_photons(MAP_PARAMETERS, __global const uint* restrict slots, float radius, __global const uint* restrict active,
+                                __global const uint* restrict active_count, __global const Ray* restrict rays,
+                                __global const Hit* restrict hits, __global const uint* restrict firsts, uint window, uint capacity,
+                                __global VertexPair* restrict pairs)
 {
     const uint item = get_global_id(0);
     if (item >= *active_count) return;
-    const uint end = firsts[item + 1u];
-    uint place = firsts[item];
-    if (place == end || place >= window + capacity || end <= window) return;
+    const uint first = firsts[item], end = firsts[item + 1u];
+    if (first == end || first >= window + capacity || end <= window) return;
     const uint path = active[item];
-    const float3 position = hit_position(rays[path], hits[path].t);
-    PhotonRun runs[8];
-    const uint run_count = find_photon_runs(&grid, cell_ends + cell_ends_offset, position, runs);
-    for (uint r = 0u; r < run_count; ++r) {
-        for (uint i = runs[r].begin; i < runs[r].end; i += 8u) {
-            int lanes = near_lanes(streams, slots, grid.stride, runs[r], i, position, radius);
-            for (; lanes != 0 && place < end; lanes &= lanes - 1, ++place) {
-                const VertexPair pair = {path, slots[i + (uint)first_lane(lanes)]};
-                if (place - window < capacity) pairs[place - window] = pair; // unsigned: also below the window
-            }
-        }
-    }
+    const PhotonMap map = MAP_VIEW;
+    const Listing none = {hit_position(rays[path], hits[path].t), radius, slots, pairs, path, first, end, window, capacity};
+    visit_photons(none, &map);
 }

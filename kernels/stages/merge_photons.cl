@@ -2,11 +2,9 @@
 // ways to make the path. Reads flags, vertices, cell ends, photon streams and what the photons bring for their weights (two
 // streams); updates radiance. One work-item an active path; eight photons at a time. -D DENSITY_KERNEL; the weights are those
 // of the uniform one. Used by the bidirectional methods.
-#include "density/flux8.h"
 #include "density/kernels.h"
-#include "density/photon_grid.h"
+#include "density/photon_lanes.h"
 #include "density/wanted_photons.h"
-#include "math/simd8.h"
 #include "math/sum8.h"
 #include "scene/path_vertex.h"
 
@@ -31,21 +29,20 @@ static inline MergingVertex merging_vertex(__global const PathVertex* vertex, Pa
     return merging;
 }
 
-typedef struct Photons8 {
+// What eight photons bring to a merge.
+typedef struct MergedPhotons8 {
     Flux8 flux;
     uint8 directions; // of propagation, packed
     float8 vcm, vm;
-} Photons8;
+} MergedPhotons8;
 
-static inline Photons8 load_photons(__global const float* streams, __global const float* weight_streams, uint stride, uint i)
+static inline MergedPhotons8 load_photons(const PhotonMap* map, __global const float* weight_streams, uint i)
 {
-    Photons8 photons;
-    photons.flux.red = load_stream(streams, PHOTON_RED, stride, i);
-    photons.flux.green = load_stream(streams, PHOTON_GREEN, stride, i);
-    photons.flux.blue = load_stream(streams, PHOTON_BLUE, stride, i);
-    photons.directions = as_uint8(load_stream(streams, PHOTON_DIRECTION, stride, i));
-    photons.vcm = load_stream(weight_streams, 0u, stride, i);
-    photons.vm = load_stream(weight_streams, 1u, stride, i);
+    MergedPhotons8 photons;
+    photons.flux = load_flux(map, i);
+    photons.directions = as_uint8(load_stream(map, PHOTON_DIRECTION, i));
+    photons.vcm = vload8(0, weight_streams + i);
+    photons.vm = vload8(0, weight_streams + map->grid.stride + i);
     return photons;
 }
 
@@ -57,7 +54,7 @@ static inline void add_lanes(Flux8* sum, int8 mask, float8 factor, Flux8 flux)
 }
 
 // A diffuse lobe, whose f all photons share, and whose densities are cosines.
-static inline void merge_diffuse(const MergingVertex* vertex, Techniques techniques, int8 mask, float8 shape, Photons8 photons, Flux8* sum)
+static inline void merge_diffuse(const MergingVertex* vertex, Techniques techniques, int8 mask, float8 shape, MergedPhotons8 photons, Flux8* sum)
 {
     const Offset8 direction = unpack_directions(photons.directions);
     const float3 n = -vertex->scattering.normal;
@@ -81,7 +78,7 @@ static inline float3 merged(const MergingVertex* vertex, Techniques techniques, 
 }
 
 // Any lobe: one photon after another.
-static inline void merge_one_by_one(const MergingVertex* vertex, Techniques techniques, int8 mask, float8 shape, Photons8 photons,
+static inline void merge_one_by_one(const MergingVertex* vertex, Techniques techniques, int8 mask, float8 shape, MergedPhotons8 photons,
                                     Flux8* sum)
 {
     float red[8], green[8], blue[8], vcm[8], vm[8];
@@ -101,39 +98,52 @@ static inline void merge_one_by_one(const MergingVertex* vertex, Techniques tech
     add_lanes(sum, mask, shape, scattered);
 }
 
-__kernel void merge_photons(PhotonGrid grid, __global const uint* restrict cell_ends, uint cell_ends_offset,
-                            __global const float* restrict streams, __global const float* restrict weight_streams, PathRules rules,
-                            Techniques techniques, float radius, __global const uint* restrict active,
-                            __global const uint* restrict active_count, __global const uint* restrict flags,
+typedef struct Merging {
+    float3 position;
+    float inverse_radius_squared;
+    const MergingVertex* vertex;
+    const Techniques* techniques;
+    __global const float* weight_streams;
+    bool diffuse;
+    Flux8 sum;
+} Merging;
+#define VISITOR Merging
+
+// Squares are shares of the radius'.
+static inline int8 visitor_reach(const Merging* merging, Offset8 offset, float8* squares)
+{
+    *squares = squared_lengths(offset) * merging->inverse_radius_squared;
+    return *squares < 1.0f;
+}
+
+static inline Merging visit(Merging merging, const PhotonMap* map, Photons8 near)
+{
+    const int8 mask = near.mask & wanted(as_uint8(load_stream(map, PHOTON_NORMAL_DEPTH, near.first)), &merging.vertex->query);
+    const MergedPhotons8 photons = load_photons(map, merging.weight_streams, near.first);
+    const float8 shape = kernel_shape(near.squares);
+    if (merging.diffuse) merge_diffuse(merging.vertex, *merging.techniques, mask, shape, photons, &merging.sum);
+    else merge_one_by_one(merging.vertex, *merging.techniques, mask, shape, photons, &merging.sum);
+    return merging;
+}
+
+#include "density/visit_photons.h"
+
+__kernel void merge_photons(MAP_PARAMETERS, __global const float* restrict weight_streams, PathRules rules, Techniques techniques, float radius,
+                            __global const uint* restrict active, __global const uint* restrict active_count, __global const uint* restrict flags,
                             __global const PathVertex* restrict vertices, __global Vec3* restrict radiance)
 {
     const uint item = get_global_id(0);
     if (item >= *active_count || !(flags[item] & PATH_JOINS)) return;
     const uint path = active[item];
+    const PhotonMap map = MAP_VIEW;
     const MergingVertex vertex = merging_vertex(vertices + path, rules, radius);
     const bool diffuse = vertex.scattering.lobe == LOBE_DIFFUSE && !(vertex.scattering.flags & LOBE_PERTURBED);
     const float inverse_radius_squared = 1.0f / (radius * radius);
-    const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
-
-    PhotonRun runs[8];
-    const uint run_count = find_photon_runs(&grid, cell_ends + cell_ends_offset, vertex.surface.position, runs);
-    Flux8 sum = {(float8)(0.0f), (float8)(0.0f), (float8)(0.0f)};
-    for (uint r = 0u; r < run_count; ++r) {
-        for (uint i = runs[r].begin; i < runs[r].end; i += 8u) {
-            const float8 t_squared =
-                squared_lengths(photon_offsets(streams, grid.stride, i, vertex.surface.position)) * inverse_radius_squared;
-            int8 mask = (t_squared < 1.0f) & (lane < (int8)((int)(runs[r].end - i)));
-            if (!mask8(mask)) continue;
-            mask &= wanted(as_uint8(load_stream(streams, PHOTON_NORMAL_DEPTH, grid.stride, i)), &vertex.query);
-            const Photons8 photons = load_photons(streams, weight_streams, grid.stride, i);
-            if (diffuse)
-                merge_diffuse(&vertex, techniques, mask, kernel_shape(t_squared), photons, &sum);
-            else
-                merge_one_by_one(&vertex, techniques, mask, kernel_shape(t_squared), photons, &sum);
-        }
-    }
+    Merging merging = {vertex.surface.position, inverse_radius_squared, &vertex, &techniques, weight_streams, diffuse,
+                       {(float8)(0.0f), (float8)(0.0f), (float8)(0.0f)}};
+    merging = visit_photons(merging, &map);
     const float3 f = diffuse ? evaluate_diffuse(&vertex.scattering) : (float3)(1.0f);
-    const float3 flux = (float3)(sum8(sum.red), sum8(sum.green), sum8(sum.blue));
+    const float3 flux = (float3)(sum8(merging.sum.red), sum8(merging.sum.green), sum8(merging.sum.blue));
     const float3 irradiance = flux * (KERNEL_NORM * inverse_radius_squared / techniques.light_paths);
     radiance[path] = pack(unpack(radiance[path]) + unpack(vertices[path].throughput) * f * irradiance);
 }

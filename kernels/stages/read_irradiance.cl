@@ -1,55 +1,54 @@
 // Answers queries at diffuse lobes by the irradiance of the nearest place where it was computed, within the radius and with a
 // normal close to the query's [Christensen 1999, section 3]. Reads a grid whose "photons" hold irradiance (W/m^2) as their flux;
 // adds to radiance, and takes the radius from the queries that it has answered. One work-item a query. Used by photonmapper.
-#include "density/photon_grid.h"
+#include "density/photon_lanes.h"
 #include "density/wanted_photons.h"
-#include "math/simd8.h"
 
 #define LEAST_COSINE 0.9f
 #define NO_PLACE 0xffffffffu
 
 typedef struct NearestPlace {
-    float square; // of the distance
+    float3 position, normal; // of the query
+    float square;            // of the distance
     uint index;
 } NearestPlace;
+#define VISITOR NearestPlace
 
-static inline NearestPlace nearest_of_run(PhotonRun run, const GatherQuery* query, __global const float* streams, uint stride, NearestPlace nearest)
+static inline int8 visitor_reach(const NearestPlace* nearest, Offset8 offset, float8* squares)
 {
-    const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
-    const float3 position = unpack(query->position);
-    for (uint i = run.begin; i < run.end; i += 8u) {
-        const Offset8 offset = photon_offsets(streams, stride, i, position);
-        const float8 squares = squared_lengths(offset);
-        int8 mask = (squares < nearest.square) & (lane < (int8)((int)(run.end - i)));
-        if (!mask8(mask)) continue;
-        mask &= on_same_side(as_uint8(load_stream(streams, PHOTON_NORMAL_DEPTH, stride, i)), unpack(query->normal), false, LEAST_COSINE);
-        float square[8];
-        vstore8(squares, 0, square);
-        for (int lanes = mask8(mask); lanes != 0; lanes &= lanes - 1) {
-            const uint l = (uint)first_lane(lanes);
-            if (!(square[l] < nearest.square)) continue;
-            nearest.square = square[l];
-            nearest.index = i + l;
-        }
+    *squares = squared_lengths(offset);
+    return *squares < nearest->square;
+}
+
+static inline NearestPlace visit(NearestPlace nearest, const PhotonMap* map, Photons8 places)
+{
+    const uint8 normals = as_uint8(load_stream(map, PHOTON_NORMAL_DEPTH, places.first));
+    const int8 mask = places.mask & on_same_side(normals, nearest.normal, false, LEAST_COSINE);
+    float square[8];
+    vstore8(places.squares, 0, square);
+    for (int lanes = mask8(mask); lanes != 0; lanes &= lanes - 1) {
+        const uint lane = (uint)first_lane(lanes);
+        if (!(square[lane] < nearest.square)) continue;
+        nearest.square = square[lane];
+        nearest.index = places.first + lane;
     }
     return nearest;
 }
 
-__kernel void read_irradiance(PhotonGrid grid, __global const uint* restrict cell_ends, uint cell_ends_offset, __global const float* restrict streams,
-                              float radius, uint count, __global GatherQuery* restrict queries, __global Vec3* restrict radiance)
+#include "density/visit_photons.h"
+
+__kernel void read_irradiance(MAP_PARAMETERS, float radius, uint count, __global GatherQuery* restrict queries, __global Vec3* restrict radiance)
 {
     const uint index = get_global_id(0);
     if (index >= count) return;
     const GatherQuery query = queries[index];
     if (query.radius == 0.0f || (query.flags & QUERY_EVALUATES_LOBE)) return;
-    PhotonRun runs[8];
-    const uint run_count = find_photon_runs(&grid, cell_ends + cell_ends_offset, unpack(query.position), runs);
-    NearestPlace nearest = {radius * radius, NO_PLACE};
-    for (uint i = 0u; i < run_count; ++i) nearest = nearest_of_run(runs[i], &query, streams, grid.stride, nearest);
+    const PhotonMap map = MAP_VIEW;
+    NearestPlace nearest = {unpack(query.position), unpack(query.normal), radius * radius, NO_PLACE};
+    nearest = visit_photons(nearest, &map);
     if (nearest.index == NO_PLACE) return;
-    const float3 irradiance = (float3)(streams[(size_t)PHOTON_RED * grid.stride + nearest.index],
-                                       streams[(size_t)PHOTON_GREEN * grid.stride + nearest.index],
-                                       streams[(size_t)PHOTON_BLUE * grid.stride + nearest.index]);
+    const float3 irradiance = (float3)(stream_value(&map, PHOTON_RED, nearest.index), stream_value(&map, PHOTON_GREEN, nearest.index),
+                                       stream_value(&map, PHOTON_BLUE, nearest.index));
     radiance[index] = pack(unpack(radiance[index]) + unpack(query.throughput) * irradiance);
     queries[index].radius = 0.0f;
 }

@@ -12,11 +12,10 @@
 // the flux relative to F then moves photons up by g r^2 / 12 a sweep, to where each of them stands for too much light.
 // Reads cell ends of a dense grid and photon streams, which hold the positions before the sweep; updates photons. One
 // work-item a photon. Used by photonmapper.
-#include "density/photon_grid.h"
+#include "density/photon_lanes.h"
 #include "density/wanted_photons.h"
 #include "math/frame.h"
 #include "math/luminance.h"
-#include "math/simd8.h"
 #include "shared/relaxation.h"
 
 // Neighbours whose centroid is further off than this, in r, lie to one side. In even light it is further than c with the
@@ -59,41 +58,52 @@ static inline void insert_neighbour(Neighbours* neighbours, float square, float2
 }
 
 // Luminance of a photon's flux; 0 where nobody asks.
-static inline float flux_of(__global const float* streams, uint stride, uint place)
+static inline float flux_of(const PhotonMap* map, uint place)
 {
     if (!EQUAL_FLUX) return 0.0f;
-    const float3 flux = (float3)(streams[(size_t)PHOTON_RED * stride + place], streams[(size_t)PHOTON_GREEN * stride + place],
-                                 streams[(size_t)PHOTON_BLUE * stride + place]);
+    const float3 flux = (float3)(stream_value(map, PHOTON_RED, place), stream_value(map, PHOTON_GREEN, place), stream_value(map, PHOTON_BLUE, place));
     return dot(flux, LUMINANCE_WEIGHTS);
 }
 
-// Those nearer than the root of `limit`. Returns the limit for what follows.
-static inline float add_neighbours(PhotonRun run, const GatherQuery* self, float3 direction, float least_cosine, Frame frame, __global const float* streams,
-                                  uint stride, float limit, Neighbours* neighbours)
+// The neighbours nearer than the root of `limit`, which shrinks once there are enough.
+typedef struct Neighbourhood {
+    float3 position, direction; // of the photon
+    Frame frame;
+    const GatherQuery* self;
+    float least_cosine;
+    float limit;
+    Neighbours* neighbours;
+} Neighbourhood;
+#define VISITOR Neighbourhood
+
+static inline int8 visitor_reach(const Neighbourhood* near, Offset8 offset, float8* squares)
 {
-    const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
-    const float3 position = unpack(self->position);
-    for (uint i = run.begin; i < run.end; i += 8u) {
-        const Offset8 offset = photon_offsets(streams, stride, i, position);
-        const float8 squares = squared_lengths(offset);
-        int8 mask = (squares < limit) & (squares > 0.0f) & (lane < (int8)((int)(run.end - i))); // itself is at 0
-        if (!mask8(mask)) continue;
-        mask &= wanted(as_uint8(load_stream(streams, PHOTON_NORMAL_DEPTH, stride, i)), self);
-        float distance[8], u[8], v[8];
-        vstore8(squares, 0, distance);
-        vstore8(offset.x * frame.s.x + offset.y * frame.s.y + offset.z * frame.s.z, 0, u);
-        vstore8(offset.x * frame.t.x + offset.y * frame.t.y + offset.z * frame.t.z, 0, v);
-        for (int lanes = mask8(mask); lanes != 0; lanes &= lanes - 1) {
-            const int k = first_lane(lanes);
-            if (!(distance[k] < limit)) continue;
-            const uint packed = as_uint(streams[(size_t)PHOTON_DIRECTION * stride + i + (uint)k]);
-            if (least_cosine > -1.0f && dot(unpack_direction(packed), direction) < least_cosine) continue;
-            insert_neighbour(neighbours, distance[k], (float2)(u[k], v[k]), flux_of(streams, stride, i + (uint)k));
-            if (neighbours->count == NEIGHBOURS) limit = neighbours->squares[NEIGHBOURS - 1u];
-        }
-    }
-    return limit;
+    *squares = squared_lengths(offset);
+    return (*squares < near->limit) & (*squares > 0.0f); // itself is at 0
 }
+
+static inline Neighbourhood visit(Neighbourhood near, const PhotonMap* map, Photons8 photons)
+{
+    const int8 mask = photons.mask & wanted(as_uint8(load_stream(map, PHOTON_NORMAL_DEPTH, photons.first)), near.self);
+    const Offset8 offset = photons.offset;
+    const float3 s = near.frame.s, t = near.frame.t;
+    float distance[8], u[8], v[8];
+    vstore8(photons.squares, 0, distance);
+    vstore8(offset.x * s.x + offset.y * s.y + offset.z * s.z, 0, u);
+    vstore8(offset.x * t.x + offset.y * t.y + offset.z * t.z, 0, v);
+    for (int lanes = mask8(mask); lanes != 0; lanes &= lanes - 1) {
+        const int k = first_lane(lanes);
+        if (!(distance[k] < near.limit)) continue;
+        const uint place = photons.first + (uint)k;
+        const uint packed = as_uint(stream_value(map, PHOTON_DIRECTION, place));
+        if (near.least_cosine > -1.0f && dot(unpack_direction(packed), near.direction) < near.least_cosine) continue;
+        insert_neighbour(near.neighbours, distance[k], (float2)(u[k], v[k]), flux_of(map, place));
+        if (near.neighbours->count == NEIGHBOURS) near.limit = near.neighbours->squares[NEIGHBOURS - 1u];
+    }
+    return near;
+}
+
+#include "density/visit_photons.h"
 
 // The axis of a line that they lie along, or 0: by their covariance about the photon.
 static inline float2 line_of(const Neighbours* neighbours)
@@ -149,11 +159,11 @@ static inline float2 displacement(const Neighbours* neighbours)
     return away;
 }
 
-__kernel void relax_photons(PhotonGrid grid, __global const uint* restrict cell_ends, uint cell_ends_offset, __global const float* restrict streams,
-                            Relaxation relaxation, uint count, __global Photon* restrict photons)
+__kernel void relax_photons(MAP_PARAMETERS, Relaxation relaxation, uint count, __global Photon* restrict photons)
 {
     const uint index = get_global_id(0);
     if (index >= count) return;
+    const PhotonMap map = MAP_VIEW;
     const Photon photon = photons[index];
     const float3 normal = unpack_normal(photon.normal_depth);
     const Frame frame = make_frame(normal);
@@ -163,14 +173,11 @@ __kernel void relax_photons(PhotonGrid grid, __global const uint* restrict cell_
     self.flags = 0u;
     self.max_photon_depth = PHOTON_MAX_DEPTH;
     Neighbours neighbours;
+    Neighbourhood near = {unpack(photon.position), unpack_direction(photon.direction), frame, &self, relaxation.least_cosine, 0.0f, &neighbours};
     for (float radius = fmin(relaxation.first_radius, relaxation.largest_radius);; radius = fmin(2.0f * radius, relaxation.largest_radius)) {
         neighbours.count = 0u;
-        float limit = radius * radius;
-        const CellRange range = cells_within(&grid, unpack(photon.position), radius);
-        for (uint z = range.z0; z <= range.z1; ++z)
-            for (uint y = range.y0; y <= range.y1; ++y)
-                limit = add_neighbours(row_run(&grid, cell_ends + cell_ends_offset, &range, y, z), &self, unpack_direction(photon.direction),
-                                       relaxation.least_cosine, frame, streams, grid.stride, limit, &neighbours);
+        near.limit = radius * radius;
+        visit_photons_within(near, &map, radius);
         if (neighbours.count == NEIGHBOURS || radius >= relaxation.largest_radius) break;
     }
     if (neighbours.count < LEAST_NEIGHBOURS) return;

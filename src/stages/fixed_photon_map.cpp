@@ -36,7 +36,7 @@ void FixedPhotonMap::add_radiance(Buffer<GatherQuery>& queries, const Buffer<Lob
 {
     const uint count = static_cast<uint>(queries.size());
     if (lookup_.nearest > 0)
-        set_radii_(count, map_.grid(), map_.cell_ends(), map_.cell_ends_offset(), map_.streams(), lookup_.usual_radius, lookup_.radius,
+        set_radii_(count, map_, lookup_.usual_radius, lookup_.radius,
                    count, queries);
     else
         set_radii_(count, lookup_.radius, count, queries);

@@ -29,7 +29,7 @@ std::size_t NearPhotons::count(const ConnectedSubpaths& s)
 {
     const PathPool& pool = s.pool;
     const uint chunks = static_cast<uint>(Compaction::chunks_of(pool.items()));
-    count_near_photons_(pool.items(), map_.grid(), map_.cell_ends(), map_.cell_ends_offset(), map_.streams(), slots_, radius_,
+    count_near_photons_(pool.items(), map_, slots_, radius_,
                         s.pool.active(), pool.active_count(), pool.paths, pool.rays, pool.hits, item_counts_);
     sum_item_counts_(chunks, item_counts_, pool.active_count(), chunks, chunk_counts_);
     scan_counts_.launch_grouped(1, 1, chunk_counts_, chunks, 0u, total_);
@@ -41,7 +41,7 @@ void NearPhotons::list(const ConnectedSubpaths& s, std::size_t window, Buffer<ui
     const PathPool& pool = s.pool;
     const uint chunks = static_cast<uint>(Compaction::chunks_of(pool.items()));
     place_items_(chunks, item_counts_, pool.active_count(), chunks, chunk_counts_, firsts);
-    list_near_photons_(pool.items(), map_.grid(), map_.cell_ends(), map_.cell_ends_offset(), map_.streams(), slots_, radius_,
+    list_near_photons_(pool.items(), map_, slots_, radius_,
                        s.pool.active(), pool.active_count(), pool.rays, pool.hits, firsts, static_cast<uint>(window),
                        static_cast<uint>(pairs.size()), pairs);
 }

@@ -29,7 +29,7 @@ public:
     // lobes: by query, read where a query says so.
     void gather(const PhotonMap& map, const Buffer<GatherQuery>& queries, const Buffer<LobeRecord>& lobes, std::size_t count)
     {
-        gather_photons_(count, map.grid(), map.cell_ends(), map.cell_ends_offset(), map.streams(), queries, lobes, static_cast<uint>(count), sums);
+        gather_photons_(count, map, queries, lobes, static_cast<uint>(count), sums);
     }
 
     Buffer<Result> sums; // by query

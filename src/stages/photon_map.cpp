@@ -116,4 +116,12 @@ void PhotonMap::sort_and_lay_out(const RecordList<Photon>& photons, std::size_t 
     lay_out_sorted_(eights, sorted_, sort_->order(), photons.count(), grid_.stride, streams_);
 }
 
+void bind(ArgumentBinder& binder, const PhotonMap& map)
+{
+    bind(binder, map.grid());
+    bind(binder, map.cell_ends());
+    bind(binder, map.cell_ends_offset());
+    bind(binder, map.streams());
+}
+
 } // namespace sundog

@@ -26,6 +26,7 @@ public:
     // Room for `count` photons that is free until the next build(), at the price of what the map holds now.
     Buffer<Photon>& lend_room(std::size_t count);
 
+    // Kernels take them together: bind().
     const PhotonGrid& grid() const { return grid_; }
     const Buffer<uint>& cell_ends() const { return sort_->ends(); }
     uint cell_ends_offset() const { return sort_->ends_offset(); }
@@ -50,6 +51,9 @@ private:
     uint table_size_ = 0;
     PhotonGrid grid_{};
 };
+
+// Binds as MAP_PARAMETERS.
+void bind(ArgumentBinder& binder, const PhotonMap& map);
 
 // The smallest radius of at least `radius` whose cells fit the table, so that its grid is dense. Pure, for tests.
 float dense_grid_radius(const Bounds& bounds, float radius, uint table_size);

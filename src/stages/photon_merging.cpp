@@ -27,7 +27,7 @@ void PhotonMerging::build(const LightSubpaths& light, float radius)
 
 void PhotonMerging::merge(PathPool& pool, const CameraSubpaths& camera, Techniques techniques, Buffer<Vec3>& radiance)
 {
-    merge_photons_(pool.items(), map_.grid(), map_.cell_ends(), map_.cell_ends_offset(), map_.streams(), weight_streams_, rules_,
+    merge_photons_(pool.items(), map_, weight_streams_, rules_,
                    techniques, radius_, pool.active(), pool.active_count(), pool.flags, camera.vertices, radiance);
 }
 

@@ -54,7 +54,7 @@ void PhotonRelaxation::relax(std::vector<Photon>& photons, int sweeps, float ste
                                 least_cosine_, step};
     for (int sweep = 0; sweep < sweeps; sweep++) {
         map.build_dense(records, photons.size(), relaxation.first_radius);
-        relax_photons_(photons.size(), map.grid(), map.cell_ends(), map.cell_ends_offset(), map.streams(), relaxation,
+        relax_photons_(photons.size(), map, relaxation,
                        static_cast<uint>(photons.size()), records.records());
     }
     photons = records.records().download(0, photons.size());

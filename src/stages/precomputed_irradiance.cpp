@@ -46,7 +46,7 @@ PrecomputedIrradiance::PrecomputedIrradiance(Device& device, const DeviceScene& 
 
 void PrecomputedIrradiance::answer(Buffer<GatherQuery>& queries, Buffer<Vec3>& radiance)
 {
-    read_irradiance_(queries.size(), places_.grid(), places_.cell_ends(), places_.cell_ends_offset(), places_.streams(), radius_,
+    read_irradiance_(queries.size(), places_, radius_,
                      static_cast<uint>(queries.size()), queries, radiance);
 }
 

@@ -35,7 +35,7 @@ std::vector<uint> ProgressiveRelaxation::nearest_primal(const std::vector<Photon
     map.build_dense(records, primal_.size(), usual);
     const Buffer<Photon> fresh(device_, photons, "fresh photons");
     const Buffer<uint> nearest(device_, photons.size(), "nearest photons");
-    find_nearest_photons_(photons.size(), map.grid(), map.cell_ends(), map.cell_ends_offset(), map.streams(),
+    find_nearest_photons_(photons.size(), map,
                           Relaxation{usual, largest_radius_, least_cosine_, 1.0f}, fresh, static_cast<uint>(photons.size()), nearest);
     return nearest.download();
 }

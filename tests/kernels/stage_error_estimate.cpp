@@ -40,7 +40,7 @@ protected:
             for (std::size_t j = 0; j < query_count; j++)
                 asked.push_back(make_test_query({uniform(0.1f, 0.9f), uniform(0.1f, 0.9f), 0}, 1.0f));
             const auto queries = upload(asked);
-            find(count, cloud.map.grid(), cloud.map.cell_ends(), cloud.map.cell_ends_offset(), cloud.map.streams(), 0.01f, largest, count,
+            find(count, cloud.map, 0.01f, largest, count,
                  queries);
             auto wide = allocate<GatherQuery>(query_count);
             widen_(count, queries, count, 0.0f, NARROWEST_LAPLACIAN, wide);

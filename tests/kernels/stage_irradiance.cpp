@@ -45,7 +45,7 @@ TEST_F(Irradiance, NearestPlaceOfASimilarNormalAnswers)
     const Buffer<GatherQuery> asked = upload(queries);
     const Buffer<Vec3> radiance = upload(std::vector<Vec3>(count, {7, 7, 7}));
     const Kernel read(device_, "read_irradiance", "Read");
-    read(count, cloud.map.grid(), cloud.map.cell_ends(), cloud.map.cell_ends_offset(), cloud.map.streams(), radius, count, asked, radiance);
+    read(count, cloud.map, radius, count, asked, radiance);
     const auto answered = asked.download();
     const auto found = radiance.download();
     int answers = 0, without = 0, doubtful = 0;

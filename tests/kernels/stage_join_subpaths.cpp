@@ -89,7 +89,7 @@ protected:
         BuildOptions options = options_;
         options.defines.emplace_back("DENSITY_KERNEL", std::to_string(kernel));
         Kernel(device_, "merge_photons", "Merge", options)(
-            count, cloud.map.grid(), cloud.map.cell_ends(), cloud.map.cell_ends_offset(), cloud.map.streams(), weights, rules(), techniques,
+            count, cloud.map, weights, rules(), techniques,
             radius, upload(active), upload(std::vector{static_cast<uint>(count)}), upload(flags), upload(records), radiance_);
         got_radiance_ = radiance_.download();
         int certain = 0, lit = 0;

@@ -35,7 +35,7 @@ protected:
         const Kernel kernel(device_, "find_nearest_radii", "Nearest", {{{"NEAREST", std::to_string(nearest) + "u"}}, {}});
         const Buffer<GatherQuery> found = upload(queries);
         const uint count = static_cast<uint>(queries.size());
-        kernel(count, cloud.map.grid(), cloud.map.cell_ends(), cloud.map.cell_ends_offset(), cloud.map.streams(), first, largest, count,
+        kernel(count, cloud.map, first, largest, count,
                found);
         return found.download();
     }
