@@ -77,7 +77,7 @@ std::shared_ptr<Program> ProgramShelf::get(Device::State& device, const std::str
 {
     std::lock_guard lock(mutex_);
     const std::string key = cache_key(device.info, text);
-    if (auto shared = programs_[key].lock()) return shared;
+    if (const auto known = programs_.find(key); known != programs_.end()) return known->second;
 
     const auto begin = Clock::now();
     cl::Program program = from_binary(device, key);

@@ -20,7 +20,9 @@ struct Program {
     bool from_cache = false;
 };
 
-// The programs in use on one device, by source text. Thread-safe.
+// The programs of one device, by source text. Thread-safe.
+//
+// They stay for as long as the device: the next session on it needs most of them again, and to load one takes 10 ms.
 //
 // Binaries are stored late. Some drivers generate code only when a kernel is first launched, so that a binary
 // taken earlier would leave that to every later run; and taking it costs PoCL .1-.3 s a program, for it then
@@ -28,7 +30,7 @@ struct Program {
 class ProgramShelf
 {
 public:
-    // The program of this text: in use already, else from the disk cache, else built. `name` is for errors.
+    // The program of this text: here already, else from the disk cache, else built. `name` is for errors.
     // Throws DeviceError with the build log.
     std::shared_ptr<Program> get(Device::State& device, const std::string& name, const std::string& text);
 
@@ -43,7 +45,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     std::mutex mutex_;
-    std::unordered_map<std::string, std::weak_ptr<Program>> programs_; // by cache key
+    std::unordered_map<std::string, std::shared_ptr<Program>> programs_; // by cache key
     std::vector<std::shared_ptr<Program>> unstored_;
     Clock::time_point last_build_{};
 };

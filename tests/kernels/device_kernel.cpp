@@ -188,6 +188,14 @@ TEST_F(DeviceKernel, SharesProgramsOfOneSource)
     EXPECT_EQ(device_.profile().programs_built() + device_.profile().programs_loaded(), 1u);
 }
 
+TEST_F(DeviceKernel, KeepsProgramsForTheNextOfTheirKernels)
+{
+    const std::string source = "__kernel void kept_program(__global int* o) { o[get_global_id(0)] = 1; }";
+    { const Kernel gone = Kernel::from_source(device_, "kept_program", "First", source); }
+    const Kernel next = Kernel::from_source(device_, "kept_program", "Second", source);
+    EXPECT_EQ(device_.profile().programs_built() + device_.profile().programs_loaded(), 1u);
+}
+
 TEST_F(DeviceKernel, ProfilesEveryLaunchByLabel)
 {
     const Kernel one =
