@@ -1,5 +1,6 @@
 #include "stages/device_scene.h"
 
+#include "device/environment.h"
 #include "scene/flatten_bsdfs.h"
 #include "scene/scene_bvh.h"
 
@@ -17,10 +18,12 @@ template <class T> Buffer<T> upload(Device& device, const std::vector<T>& data, 
 BuildOptions surface_options(const FlatScene& flat, bool spectral)
 {
     BuildOptions options;
-    options.defines.emplace_back("BSDF_TYPES", std::to_string(bsdf_types(flat.bsdfs)) + "u");
-    options.defines.emplace_back("LOBE_TYPES", std::to_string(lobe_types(flat.bsdfs)) + "u");
-    options.defines.emplace_back("LIGHT_TYPES", std::to_string(light_types(flat)) + "u");
-    options.defines.emplace_back("HAS_UV", needs_texture_coordinates(flat) ? "1" : "0");
+    if (!environment_number("SUNDOG_GENERAL_PROGRAMS")) { // else kernels take all types: one set of programs serves every scene
+        options.defines.emplace_back("BSDF_TYPES", std::to_string(bsdf_types(flat.bsdfs)) + "u");
+        options.defines.emplace_back("LOBE_TYPES", std::to_string(lobe_types(flat.bsdfs)) + "u");
+        options.defines.emplace_back("LIGHT_TYPES", std::to_string(light_types(flat)) + "u");
+        options.defines.emplace_back("HAS_UV", needs_texture_coordinates(flat) ? "1" : "0");
+    }
     if (!flat.light_tree.empty()) options.defines.emplace_back("LIGHT_TREE", "1");
     if (!flat.instances.empty()) options.defines.emplace_back("HAS_INSTANCES", "1");
     // Without these definitions the programs are those of RGB transport, to the last bit.

@@ -67,7 +67,7 @@ TEST_P(AnalyticScenes, MeanIsTheAnswer)
     // Two-sided, 1% for the whole file. Float rounding of the answer and of sums: 2e-5.
     const double quantile = student_quantile(replicates - 1, 0.005 / tests_in_file);
     EXPECT_NEAR(estimate.mean, answer, quantile * estimate.standard_error + (c.relative_bias + 2e-5) * answer);
-    EXPECT_LT(estimate.standard_error, 0.01 * answer) << "too noisy to prove anything";
+    EXPECT_LT(estimate.standard_error, 0.01 * allowed_noise() * answer) << "too noisy to prove anything";
 }
 
 // Relative bias of a radius-r estimate where the irradiance has a Laplacian: 1/2 mu r^2 (Laplacian / value), with

@@ -61,7 +61,7 @@ TEST(ScaleFree, GlassBoxKeepsItsImage)
         for (const Estimate& e : estimates) {
             const double error = std::hypot(e.standard_error, estimates[1].standard_error);
             EXPECT_NEAR(e.mean, estimates[1].mean, student_quantile(7, 0.005 / 8) * error) << method;
-            EXPECT_LT(error, 0.02 * e.mean) << method;
+            EXPECT_LT(error, 0.02 * allowed_noise() * e.mean) << method;
         }
     }
 }

@@ -44,7 +44,7 @@ TEST(Bidirectional, LightSubpathsNeedNotBeOneAPixel)
     for (const Estimate& e : estimates) {
         const double error = std::hypot(e.standard_error, estimates[1].standard_error);
         EXPECT_NEAR(e.mean, estimates[1].mean, student_quantile(11, 0.005 / 2) * error);
-        EXPECT_LT(error, 0.02 * e.mean);
+        EXPECT_LT(error, 0.02 * allowed_noise() * e.mean);
     }
 }
 

@@ -168,7 +168,7 @@ TEST(Importons, KeepTheMeanWithFewerPhotons)
         const Estimate x = estimate_image_mean(scene, all, 16), y = estimate_image_mean(scene, important, 16);
         const double error = std::hypot(x.standard_error, y.standard_error);
         EXPECT_NEAR(x.mean, y.mean, student_quantile(15, 0.005 / 2) * error);
-        EXPECT_LT(error, 0.04 * x.mean);
+        EXPECT_LT(error, 0.04 * allowed_noise() * x.mean);
         const auto stored = [&](const RenderRequest& request) {
             RenderSettings settings;
             settings.method = "photonmapper";

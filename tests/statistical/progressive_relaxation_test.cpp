@@ -32,7 +32,7 @@ TEST(ProgressiveRelaxation, MeanIsThatOfPppm)
     const Estimate relaxed = estimate_lower_half(scene, request("photonmapper", 8, progressive), replicates);
     const double error = std::hypot(pppm.standard_error, relaxed.standard_error);
     EXPECT_NEAR(relaxed.mean, pppm.mean, student_quantile(replicates - 1, 0.005) * error + 0.01 * pppm.mean);
-    EXPECT_LT(error, 0.02 * pppm.mean);
+    EXPECT_LT(error, 0.02 * allowed_noise() * pppm.mean);
 }
 
 // All light by photons that are looked up at once. The image is the mean of those of all iterations' maps, so that the noise of

@@ -24,7 +24,7 @@ void expect_equal_means(const Scene& scene, const std::vector<RenderRequest>& re
     for (const RenderRequest& request : requests) estimates.push_back(estimate_image_mean(scene, request, replicates));
     const double pairs = static_cast<double>(requests.size() * (requests.size() - 1)) / 2;
     for (std::size_t a = 0; a < requests.size(); a++) {
-        EXPECT_LT(estimates[a].standard_error, precision * estimates[a].mean) << "render " << a;
+        EXPECT_LT(estimates[a].standard_error, precision * allowed_noise() * estimates[a].mean) << "render " << a;
         for (std::size_t b = a + 1; b < requests.size(); b++)
             EXPECT_NEAR(estimates[a].mean, estimates[b].mean,
                         student_quantile(replicates - 1, 0.005 / pairs) *

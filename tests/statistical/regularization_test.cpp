@@ -79,7 +79,7 @@ TEST(Regularization, BiasGoesAsTheSquareOfTheAngle)
     const Estimate limit = extrapolated(narrow, wide);
     // Of the fourth order there is 4 gamma^4 times some number around 1 at gamma = 0.2: less than 1%.
     EXPECT_NEAR(limit.mean, truth, quantile * limit.standard_error + 0.01 * truth);
-    EXPECT_LT(limit.standard_error, 0.01 * truth);
+    EXPECT_LT(limit.standard_error, 0.01 * allowed_noise() * truth);
     EXPECT_GT(std::abs(wide.mean - truth), quantile * wide.standard_error) << "no bias to see";
     EXPECT_GT(std::abs(wide.mean - truth), 2.0 * std::abs(narrow.mean - truth));
 }
@@ -108,7 +108,7 @@ void expect_light_of_photons(const std::string& paths, std::uint64_t iterations)
     const double error = std::hypot(limit.standard_error, photons.standard_error);
     // The photons' edges, as in agreement tests; and the fourth order, some gamma^4 of 0.14.
     EXPECT_NEAR(limit.mean, photons.mean, student_quantile(replicates - 1, 0.005) * error + (0.005 + 0.003) * photons.mean);
-    EXPECT_LT(error, 0.03 * photons.mean);
+    EXPECT_LT(error, 0.03 * allowed_noise() * photons.mean);
 }
 
 TEST(Regularization, OfBdptFindsAllLightOfALampInGlass)
@@ -126,7 +126,7 @@ TEST(Regularization, OfMarkovChainsIsThatOfTheirPaths)
         scene, {"psr", 7, {{"paths", "pssmlt"}, {"chains", "1024"}, {"seeds", "8192"}, {"max_depth", "6"}, {"angle", "24"}, {"rate", "0"}}}, replicates);
     const double error = std::hypot(paths.standard_error, chains.standard_error);
     EXPECT_NEAR(chains.mean, paths.mean, quantile * error);
-    EXPECT_LT(error, 0.02 * paths.mean);
+    EXPECT_LT(error, 0.02 * allowed_noise() * paths.mean);
 }
 
 TEST(LongRegularization, OfPathFindsAllLightOfALampInGlass)

@@ -42,7 +42,7 @@ TEST(UnbiasedGathering, MeansStayOverAFourfoldSweepOfTheRadius)
         for (std::size_t b = a + 1; b < estimates.size(); b++) {
             const double error = std::hypot(estimates[a].standard_error, estimates[b].standard_error);
             EXPECT_NEAR(estimates[a].mean, estimates[b].mean, quantile * error) << a << " and " << b;
-            EXPECT_LT(error, 0.0125 * estimates[a].mean) << a << " and " << b;
+            EXPECT_LT(error, 0.0125 * allowed_noise() * estimates[a].mean) << a << " and " << b;
         }
 }
 

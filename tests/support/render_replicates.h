@@ -8,6 +8,7 @@
 #include "support/places.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,6 +25,25 @@ inline Device& shared_device()
 inline Scene load_test_scene(const std::string& path, const std::map<std::string, std::string>& defines = {})
 {
     return load_scene(source_folder() / "scenes" / path, {defines}).scene;
+}
+
+// Whether a test that compares means takes all of its samples (environment variable SUNDOG_THOROUGH_TESTS), as in the long tier.
+inline bool thorough()
+{
+    return std::getenv("SUNDOG_THOROUGH_TESTS") != nullptr;
+}
+
+// Iterations of a render whose mean is compared. Else a quarter of them is taken: standard errors are twice as large, and so is
+// the smallest fault that is found. Probabilities of a false alarm stay what they are.
+inline std::uint64_t sampled(std::uint64_t iterations)
+{
+    return thorough() ? iterations : (iterations + 3) / 4;
+}
+
+// Factor on the largest standard error with which a test still proves something.
+inline double allowed_noise()
+{
+    return thorough() ? 1.0 : 2.0;
 }
 
 // How one render of a test is made. Parameters as with --param.
@@ -73,11 +93,17 @@ inline Estimate estimate_from(const std::vector<double>& replicates)
     return {mean, std::sqrt(squares / (n - 1.0) / n)};
 }
 
+// As render, with sampled iterations.
+inline Image render_sampled(const Scene& scene, const RenderRequest& request, int seed)
+{
+    return render(scene, {request.method, sampled(request.iterations), request.parameters}, static_cast<std::uint64_t>(seed));
+}
+
 // Replicates of the image's mean, seeds 1 to `count`.
 inline Estimate estimate_image_mean(const Scene& scene, const RenderRequest& request, int count)
 {
     std::vector<double> means;
-    for (int seed = 1; seed <= count; seed++) means.push_back(image_mean(render(scene, request, static_cast<std::uint64_t>(seed))));
+    for (int seed = 1; seed <= count; seed++) means.push_back(image_mean(render_sampled(scene, request, seed)));
     return estimate_from(means);
 }
 
@@ -86,7 +112,7 @@ inline Estimate estimate_lower_half(const Scene& scene, const RenderRequest& req
 {
     std::vector<double> means;
     for (int seed = 1; seed <= count; seed++) {
-        const Image image = render(scene, request, static_cast<std::uint64_t>(seed));
+        const Image image = render_sampled(scene, request, seed);
         means.push_back(window_mean(image, 0, image.height / 2, image.width, image.height));
     }
     return estimate_from(means);
