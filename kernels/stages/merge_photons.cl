@@ -111,7 +111,7 @@ __kernel void merge_photons(PhotonGrid grid, __global const uint* restrict cell_
     if (item >= *active_count || !(flags[item] & PATH_JOINS)) return;
     const uint path = active[item];
     const MergingVertex vertex = merging_vertex(vertices + path, rules, radius);
-    const bool diffuse = vertex.scattering.lobe == LOBE_DIFFUSE && !(vertex.scattering.flags & LOBE_PERTURBED);
+    const bool diffuse = vertex.scattering.lobe == LOBE_DIFFUSE && !(vertex.scattering.flags & LOBE_CHANGED);
     const float inverse_radius_squared = 1.0f / (radius * radius);
     const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
 
