@@ -18,7 +18,7 @@ static inline GatherQuery make_query(const Surface* surface, const Scattering* s
     query.position = pack(surface->position);
     query.radius = radius;
     query.flags = 0u;
-    if (scattering->lobe == LOBE_DIFFUSE && !(scattering->flags & LOBE_PERTURBED)) throughput *= evaluate_diffuse(scattering);
+    if (scattering->lobe == LOBE_DIFFUSE && !(scattering->flags & LOBE_CHANGED)) throughput *= evaluate_diffuse(scattering);
     else query.flags |= QUERY_EVALUATES_LOBE;
     if (is_transmissive(scattering)) query.flags |= QUERY_BOTH_SIDES;
     if (is_narrow(scattering)) query.flags |= QUERY_UNREACHED_ONLY;

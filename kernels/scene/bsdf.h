@@ -2,6 +2,7 @@
 #ifndef SUNDOG_SCENE_BSDF_H
 #define SUNDOG_SCENE_BSDF_H
 #include "scene/lobes/clearcoat.h"
+#include "scene/lobes/coat.h"
 #include "scene/lobes/coated_diffuse.h"
 #include "scene/lobes/conductor.h"
 #include "scene/lobes/dielectric.h"
@@ -65,6 +66,44 @@ static inline bool sides_agree(const Scattering* scattering, const Surface* surf
     return shading_crosses == geometry_crosses;
 }
 
+// For directions above the surface: of opaque lobes.
+static inline float3 evaluate_opaque_lobe(const Scattering* scattering, float3 outgoing, float3 incoming, float cos_i)
+{
+    switch (scattering->lobe) {
+    case LOBE_DIFFUSE: return evaluate_diffuse(scattering);
+#if LOBE_OCCURS(LOBE_COATED_DIFFUSE)
+    case LOBE_COATED_DIFFUSE: return evaluate_coated_diffuse(scattering, cos_i);
+#endif
+#if LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR)
+    case LOBE_ROUGH_CONDUCTOR: return evaluate_rough_conductor(scattering, outgoing, incoming);
+#endif
+#if LOBE_OCCURS(LOBE_PRINCIPLED_DIFFUSE)
+    case LOBE_PRINCIPLED_DIFFUSE: return evaluate_principled_diffuse(scattering, outgoing, incoming);
+#endif
+#if LOBE_OCCURS(LOBE_PRINCIPLED_SPECULAR)
+    case LOBE_PRINCIPLED_SPECULAR: return evaluate_principled_specular(scattering, outgoing, incoming);
+#endif
+#if LOBE_OCCURS(LOBE_CLEARCOAT)
+    case LOBE_CLEARCOAT: return evaluate_clearcoat(scattering, outgoing, incoming);
+#endif
+#if LOBE_OCCURS(LOBE_PHONG)
+    case LOBE_PHONG: return evaluate_phong(scattering, outgoing, incoming);
+#endif
+    default: return (float3)(0.0f);
+    }
+}
+
+#if HAS_COATS
+static inline float3 evaluate_coated(const Scattering* scattering, float3 outgoing, float3 incoming)
+{
+    CoatCrossing out, in;
+    if (!cross_coat(scattering, outgoing, &out) || !cross_coat(scattering, incoming, &in)) return (float3)(0.0f);
+    const Scattering below = below_coat(scattering, &out);
+    const float3 f = evaluate_opaque_lobe(&below, out.below, in.below, in.cosine_below);
+    return f * coat_passage(scattering, &out, &in) / (scattering->eta * scattering->eta);
+}
+#endif
+
 // bsdf_evaluate without the shadows of relief.
 static inline float3 evaluate_lobe(const Scattering* scattering, const Surface* surface, float3 incoming, int carries)
 {
@@ -74,28 +113,10 @@ static inline float3 evaluate_lobe(const Scattering* scattering, const Surface* 
     if (scattering->lobe == LOBE_ROUGH_DIELECTRIC) return evaluate_rough_dielectric(scattering, surface->outgoing, incoming, carries);
 #endif
     if (cos_i <= 0.0f) return (float3)(0.0f);
-    switch (scattering->lobe) {
-    case LOBE_DIFFUSE: return evaluate_diffuse(scattering);
-#if LOBE_OCCURS(LOBE_COATED_DIFFUSE)
-    case LOBE_COATED_DIFFUSE: return evaluate_coated_diffuse(scattering, cos_i);
+#if HAS_COATS
+    if (scattering->flags & LOBE_COATED) return evaluate_coated(scattering, surface->outgoing, incoming);
 #endif
-#if LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR)
-    case LOBE_ROUGH_CONDUCTOR: return evaluate_rough_conductor(scattering, surface->outgoing, incoming);
-#endif
-#if LOBE_OCCURS(LOBE_PRINCIPLED_DIFFUSE)
-    case LOBE_PRINCIPLED_DIFFUSE: return evaluate_principled_diffuse(scattering, surface->outgoing, incoming);
-#endif
-#if LOBE_OCCURS(LOBE_PRINCIPLED_SPECULAR)
-    case LOBE_PRINCIPLED_SPECULAR: return evaluate_principled_specular(scattering, surface->outgoing, incoming);
-#endif
-#if LOBE_OCCURS(LOBE_CLEARCOAT)
-    case LOBE_CLEARCOAT: return evaluate_clearcoat(scattering, surface->outgoing, incoming);
-#endif
-#if LOBE_OCCURS(LOBE_PHONG)
-    case LOBE_PHONG: return evaluate_phong(scattering, surface->outgoing, incoming);
-#endif
-    default: return (float3)(0.0f);
-    }
+    return evaluate_opaque_lobe(scattering, surface->outgoing, incoming, cos_i);
 }
 
 // f (1/sr), without the cosine, from `incoming` (unit) to the outgoing direction; light comes from `incoming` where
@@ -119,6 +140,39 @@ static inline float3 evaluate_for_photon(const Scattering* scattering, const Sur
     return f;
 }
 
+// For directions above the surface: of opaque lobes.
+static inline float opaque_lobe_pdf_w(const Scattering* scattering, float3 outgoing, float3 incoming, float cos_i)
+{
+    switch (scattering->lobe) {
+    case LOBE_COATED_DIFFUSE:
+    case LOBE_PRINCIPLED_DIFFUSE:
+    case LOBE_DIFFUSE: return diffuse_pdf_w(cos_i);
+#if LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR) || LOBE_OCCURS(LOBE_PRINCIPLED_SPECULAR)
+    case LOBE_PRINCIPLED_SPECULAR:
+    case LOBE_ROUGH_CONDUCTOR: return rough_reflection_pdf_w(scattering, outgoing, incoming);
+#endif
+#if LOBE_OCCURS(LOBE_CLEARCOAT)
+    case LOBE_CLEARCOAT: return clearcoat_pdf_w(scattering, outgoing, incoming);
+#endif
+#if LOBE_OCCURS(LOBE_PHONG)
+    case LOBE_PHONG: return phong_pdf_w(scattering, outgoing, incoming);
+#endif
+    default: return 0.0f;
+    }
+}
+
+#if HAS_COATS
+// Diffuse lobes are sampled as if the coat was not there: the cosine outside is nearly what they send out.
+static inline float coated_pdf_w(const Scattering* scattering, float3 outgoing, float3 incoming, float cos_i)
+{
+    if (scattering->lobe == LOBE_DIFFUSE) return diffuse_pdf_w(cos_i);
+    CoatCrossing out, in;
+    if (!cross_coat(scattering, outgoing, &out) || !cross_coat(scattering, incoming, &in)) return 0.0f;
+    const Scattering below = below_coat(scattering, &out);
+    return opaque_lobe_pdf_w(&below, out.below, in.below, in.cosine_below) * coat_compression(scattering, &in);
+}
+#endif
+
 // Density (1/sr) with which bsdf_sample chooses `incoming`. Zero for specular lobes.
 static inline float bsdf_pdf_w(const Scattering* scattering, const Surface* surface, float3 incoming)
 {
@@ -128,22 +182,10 @@ static inline float bsdf_pdf_w(const Scattering* scattering, const Surface* surf
     if (scattering->lobe == LOBE_ROUGH_DIELECTRIC) return rough_dielectric_pdf_w(scattering, surface->outgoing, incoming);
 #endif
     if (cos_i <= 0.0f) return 0.0f;
-    switch (scattering->lobe) {
-    case LOBE_COATED_DIFFUSE:
-    case LOBE_PRINCIPLED_DIFFUSE:
-    case LOBE_DIFFUSE: return diffuse_pdf_w(cos_i);
-#if LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR) || LOBE_OCCURS(LOBE_PRINCIPLED_SPECULAR)
-    case LOBE_PRINCIPLED_SPECULAR:
-    case LOBE_ROUGH_CONDUCTOR: return rough_reflection_pdf_w(scattering, surface->outgoing, incoming);
+#if HAS_COATS
+    if (scattering->flags & LOBE_COATED) return coated_pdf_w(scattering, surface->outgoing, incoming, cos_i);
 #endif
-#if LOBE_OCCURS(LOBE_CLEARCOAT)
-    case LOBE_CLEARCOAT: return clearcoat_pdf_w(scattering, surface->outgoing, incoming);
-#endif
-#if LOBE_OCCURS(LOBE_PHONG)
-    case LOBE_PHONG: return phong_pdf_w(scattering, surface->outgoing, incoming);
-#endif
-    default: return 0.0f;
-    }
+    return opaque_lobe_pdf_w(scattering, surface->outgoing, incoming, cos_i);
 }
 
 // Density (1/sr) with which bsdf_sample, of a path that comes from `incoming`, chooses the outgoing direction.
@@ -168,6 +210,13 @@ static inline BsdfDensities bsdf_densities(const Scattering* scattering, const S
     BsdfDensities densities = {0.0f, 0.0f};
     const float cos_i = dot(incoming, scattering->normal);
     if (!is_transmissive(scattering) && (cos_i <= 0.0f || scattering->cos_o <= 0.0f)) return densities;
+#if HAS_COATS
+    if (scattering->flags & LOBE_COATED) {
+        densities.pdf_w = bsdf_pdf_w(scattering, surface, incoming);
+        densities.reverse_pdf_w = bsdf_reverse_pdf_w(scattering, surface, incoming);
+        return densities;
+    }
+#endif
     switch (scattering->lobe) {
     case LOBE_DIFFUSE:
         densities.pdf_w = diffuse_pdf_w(cos_i);
@@ -189,11 +238,8 @@ static inline BsdfDensities bsdf_densities(const Scattering* scattering, const S
     return densities;
 }
 
-// Chooses where a path goes on. False: it is absorbed.
-static inline bool bsdf_sample(const Scattering* scattering, const Surface* surface, float4 u, int carries, BsdfSample* sample)
+static inline void sample_lobe(const Scattering* scattering, float3 o, float4 u, int carries, BsdfSample* sample)
 {
-    if (is_black_side(scattering)) return false;
-    const float3 o = surface->outgoing;
     switch (scattering->lobe) {
 #if LOBE_OCCURS(LOBE_DIELECTRIC)
     case LOBE_DIELECTRIC: *sample = sample_dielectric(scattering, o, u.z, carries); break;
@@ -228,6 +274,41 @@ static inline bool bsdf_sample(const Scattering* scattering, const Surface* surf
     case LOBE_NULL: *sample = specular_sample(-o, (float3)(1.0f)); break;
     default: *sample = sample_diffuse(scattering, u.xy); break;
     }
+}
+
+#if HAS_COATS
+// False: the coat turns the light back.
+static inline bool sample_coated(const Scattering* scattering, float3 o, float4 u, int carries, BsdfSample* sample)
+{
+    CoatCrossing out, in;
+    if (!cross_coat(scattering, o, &out)) return false;
+    if (scattering->lobe == LOBE_DIFFUSE) {
+        *sample = sample_diffuse(scattering, u.xy);
+        if (!cross_coat(scattering, sample->direction, &in)) return false;
+        sample->weight /= scattering->eta * scattering->eta;
+    } else {
+        const Scattering below = below_coat(scattering, &out);
+        sample_lobe(&below, out.below, u, carries, sample);
+        if (!leave_coat(scattering, sample->direction, &in)) return false;
+        sample->direction = normalize((sample->direction - scattering->normal * in.cosine_below) * scattering->eta + scattering->normal * in.cosine);
+        if (sample->pdf_w != PDF_DELTA) sample->pdf_w *= coat_compression(scattering, &in);
+    }
+    sample->weight *= coat_passage(scattering, &out, &in);
+    return true;
+}
+#endif
+
+// Chooses where a path goes on. False: it is absorbed.
+static inline bool bsdf_sample(const Scattering* scattering, const Surface* surface, float4 u, int carries, BsdfSample* sample)
+{
+    if (is_black_side(scattering)) return false;
+    const float3 o = surface->outgoing;
+#if HAS_COATS
+    if (scattering->flags & LOBE_COATED) {
+        if (!sample_coated(scattering, o, u, carries, sample)) return false;
+    } else
+#endif
+    sample_lobe(scattering, o, u, carries, sample);
 #if HAS_RELIEF
     if ((scattering->flags & BSDF_SHADOWS_RELIEF) && scattering->lobe != LOBE_NULL)
         sample->weight *= relief_shadowing(scattering, surface, carries == CARRIES_RADIANCE ? sample->direction : o);

@@ -2,6 +2,7 @@
 #ifndef SUNDOG_SCENE_MATERIAL_H
 #define SUNDOG_SCENE_MATERIAL_H
 #include "scene/dispersion.h"
+#include "scene/materials/coating.h"
 #include "scene/materials/perturbed_normal.h"
 #include "scene/materials/phong.h"
 #include "scene/materials/plastic.h"
@@ -9,7 +10,7 @@
 #include "scene/scattering.h"
 #include "scene/texture.h"
 
-// BSDFs inside one another: masks, blends, maps of normals. The importer refuses deeper ones.
+// BSDFs inside one another: masks, blends, maps of normals, coatings. The importer refuses deeper ones.
 #define MAX_BSDF_NESTING 8
 
 // One uniform number decides again and again: each decision leaves the part of it that it did not use.
@@ -36,6 +37,8 @@ static inline Bsdf facing_bsdf(const SurfaceView* scene, uint index, const Surfa
     return bsdf;
 }
 
+static inline bool holds_another(uint type) { return type == BSDF_MASK || type == BSDF_BLEND || IS_RELIEF(type) || IS_COAT(type); }
+
 #define LOBES_HAVE_FACETS                                                                                                                  \
     (LOBE_OCCURS(LOBE_ROUGH_CONDUCTOR) || LOBE_OCCURS(LOBE_ROUGH_DIELECTRIC) || LOBE_OCCURS(LOBE_PRINCIPLED_SPECULAR) ||                   \
      LOBE_OCCURS(LOBE_CLEARCOAT))
@@ -59,8 +62,20 @@ static inline Scattering scattering_at(const SurfaceView* scene, const Surface* 
     scattering.normal = surface->shading_normal;
     Bsdf bsdf = facing_bsdf(scene, scene->shapes[surface->shape].bsdf, surface, &scattering);
     uint relief = 0u;
-#if BSDF_OCCURS(BSDF_MASK) || BSDF_OCCURS(BSDF_BLEND) || HAS_RELIEF
-    for (int level = 0; level < MAX_BSDF_NESTING && (bsdf.type == BSDF_MASK || bsdf.type == BSDF_BLEND || IS_RELIEF(bsdf.type)); ++level) {
+    Layer layer = {false, 1.0f, (float3)(0.0f), 1.0f};
+#if BSDF_OCCURS(BSDF_MASK) || BSDF_OCCURS(BSDF_BLEND) || HAS_RELIEF || HAS_COATS
+    for (int level = 0; level < MAX_BSDF_NESTING && holds_another(bsdf.type); ++level) {
+#if HAS_COATS
+        if (IS_COAT(bsdf.type)) {
+            layer = layer_of(scene, &bsdf, surface);
+            const float probability = coat_probability(scene, &bsdf, surface, &layer, scattering.cos_o);
+            layer.scale = 1.0f / (1.0f - probability);
+            layer.passed = !decide(probability, &u);
+            if (layer.passed) bsdf = facing_bsdf(scene, bsdf.nested[0], surface, &scattering);
+            else take_coat(&bsdf, probability);
+            continue;
+        }
+#endif
 #if HAS_RELIEF
         if (IS_RELIEF(bsdf.type)) {
             perturb_normal(scene, &bsdf, surface, &scattering);
@@ -97,7 +112,7 @@ static inline Scattering scattering_at(const SurfaceView* scene, const Surface* 
 #if DISPERSION
     if (bsdf.flags & BSDF_DISPERSIVE) scattering.eta_rgb = dispersed_eta(scene, &bsdf);
 #endif
-#if BSDF_OCCURS(BSDF_ROUGH_CONDUCTOR) || BSDF_OCCURS(BSDF_ROUGH_DIELECTRIC)
+#if BSDF_OCCURS(BSDF_ROUGH_CONDUCTOR) || BSDF_OCCURS(BSDF_ROUGH_DIELECTRIC) || BSDF_OCCURS(BSDF_ROUGH_COATING)
     if (bsdf.type == BSDF_ROUGH_CONDUCTOR || bsdf.type == BSDF_ROUGH_DIELECTRIC) {
         scattering.alpha_u = textured_number(scene, bsdf.alpha_u, surface);
         scattering.alpha_v = textured_number(scene, bsdf.alpha_v, surface);
@@ -111,6 +126,9 @@ static inline Scattering scattering_at(const SurfaceView* scene, const Surface* 
 #endif
 #if BSDF_OCCURS(BSDF_PHONG)
     if (bsdf.type == BSDF_PHONG) choose_phong_lobe(scene, &bsdf, surface, u, &scattering);
+#endif
+#if HAS_COATS
+    if (layer.passed) cover(&scattering, &layer);
 #endif
     if (LOBES_HAVE_FACETS) scattering.tangent = lobe_tangent(surface, scattering.normal);
     return scattering;
@@ -129,7 +147,7 @@ static inline bool wants_photons(const SurfaceView* scene, const Surface* surfac
 }
 
 // Lobes with more to them than a normal, a colour and an exponent. Specular ones are never kept.
-#define LOBES_ARE_LONG (LOBES_HAVE_FACETS || LOBE_OCCURS(LOBE_COATED_DIFFUSE) || LOBE_OCCURS(LOBE_PRINCIPLED_DIFFUSE) || HAS_RELIEF)
+#define LOBES_ARE_LONG (LOBES_HAVE_FACETS || LOBE_OCCURS(LOBE_COATED_DIFFUSE) || LOBE_OCCURS(LOBE_PRINCIPLED_DIFFUSE) || HAS_RELIEF || HAS_COATS)
 
 static inline void pack_lobe(const Scattering* scattering, const Surface* surface, __global LobeRecord* record)
 {

@@ -27,7 +27,7 @@
 // to the BSDF.
 typedef struct Scattering {
     uint lobe;
-    uint flags; // BSDF_BECKMANN, BSDF_SHADOWS_RELIEF, LOBE_PERTURBED
+    uint flags; // BSDF_BECKMANN, BSDF_SHADOWS_RELIEF, LOBE_PERTURBED, LOBE_COATED
     float3 normal;  // shading normal on the side where the BSDF's front is
     float3 tangent; // along which alpha_u is measured: unit, perpendicular to the normal
     float cos_o;    // of the outgoing direction to the normal; negative behind a one-sided surface

@@ -20,6 +20,8 @@ SHARED_BEGIN
 #define BSDF_BUMP_MAP 12u        // nested[0] about the normal of heights `weight`
 #define BSDF_PRINCIPLED 13u      // eta, and nested[0] in `principled`
 #define BSDF_PHONG 14u           // a diffuse part (reflectance) and a lobe (specular) whose exponent is alpha_u
+#define BSDF_COATING 15u         // a smooth dielectric layer (eta, specular, optical depth in transmittance) over nested[0]
+#define BSDF_ROUGH_COATING 16u   // the same with alpha
 
 // Scatters on both sides: the back by the BSDF `back`. Without it, the back of
 // an opaque BSDF is black, as in Mitsuba.
@@ -87,6 +89,10 @@ SHARED_SIZE(Bsdf, 128);
 
 // Of a lobe, beside BSDF_BECKMANN and BSDF_SHADOWS_RELIEF: its normal is not the surface's shading normal.
 #define LOBE_PERTURBED 256u
+// It lies below a dielectric layer.
+#define LOBE_COATED 2048u
+// Either way its directions are not those that the lobe alone has.
+#define LOBE_CHANGED (LOBE_PERTURBED | LOBE_COATED)
 
 // How much the rough coat of plastic lets through, to the base and back out of it, from a direction of cosine c to the
 // normal: a series of so many Chebyshev polynomials in 2 sqrt(c) - 1.

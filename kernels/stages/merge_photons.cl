@@ -137,7 +137,7 @@ __kernel void merge_photons(MAP_PARAMETERS, __global const float* restrict weigh
     const uint path = active[item];
     const PhotonMap map = MAP_VIEW;
     const MergingVertex vertex = merging_vertex(vertices + path, rules, radius);
-    const bool diffuse = vertex.scattering.lobe == LOBE_DIFFUSE && !(vertex.scattering.flags & LOBE_PERTURBED);
+    const bool diffuse = vertex.scattering.lobe == LOBE_DIFFUSE && !(vertex.scattering.flags & LOBE_CHANGED);
     const float inverse_radius_squared = 1.0f / (radius * radius);
     Merging merging = {vertex.surface.position, inverse_radius_squared, &vertex, &techniques, weight_streams, diffuse,
                        {(float8)(0.0f), (float8)(0.0f), (float8)(0.0f)}};

@@ -9,9 +9,8 @@
 #include "shared/film.h"
 #include "shared/path.h"
 
-static inline float3 albedo_of(const Scattering* scattering)
+static inline float3 lobe_albedo(const Scattering* scattering)
 {
-    if (is_black_side(scattering)) return (float3)(0.0f);
     switch (scattering->lobe) {
     case LOBE_CONDUCTOR:
     case LOBE_ROUGH_CONDUCTOR: return scattering->reflectance * fresnel_conductor(1.0f, scattering->eta_rgb, scattering->k_rgb);
@@ -21,6 +20,17 @@ static inline float3 albedo_of(const Scattering* scattering)
     case LOBE_CLEARCOAT: return scattering->reflectance * (4.0f * CLEARCOAT_F0); // f has no 1 / 4
     default: return scattering->reflectance;
     }
+}
+
+static inline float3 albedo_of(const Scattering* scattering)
+{
+    if (is_black_side(scattering)) return (float3)(0.0f);
+#if HAS_COATS
+    CoatCrossing crossing;
+    if (scattering->flags & LOBE_COATED)
+        return cross_coat(scattering, scattering->normal, &crossing) ? lobe_albedo(scattering) * coat_passage(scattering, &crossing, &crossing) : (float3)(0.0f);
+#endif
+    return lobe_albedo(scattering);
 }
 
 __kernel void record_first_hits(SURFACE_PARAMETERS, __global const Ray* restrict rays, __global const Hit* restrict hits, Camera camera, uint count,

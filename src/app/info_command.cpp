@@ -25,6 +25,7 @@ struct InfoOptions {
     std::string scene;
     std::vector<std::string> defines;
     bool json = false;
+    bool allow_missing = false;
     std::string dump; // "-": standard output
 };
 
@@ -167,6 +168,7 @@ ExitStatus info(const InfoOptions& options)
     const Timer timer;
     LoadOptions load;
     load.defines = parse_assignments("-D", options.defines);
+    load.allow_missing = options.allow_missing;
     check_dump(options);
     const LoadedScene loaded = load_scene(options.scene, load);
     const SceneSummary summary = summarize(loaded.scene);
@@ -186,6 +188,7 @@ void add_info_command(CLI::App& app, ExitStatus& status)
     CLI::App* command = app.add_subcommand("info", "Load and check a scene; print counts, bounds and memory, and what cannot be rendered");
     command->add_option("SCENE", options->scene, "Mitsuba scene file")->required();
     command->add_option("-D", options->defines, "Scene parameter, $NAME in the file (repeatable)")->type_name("NAME=VALUE")->allow_extra_args(false);
+    command->add_flag("--allow-missing", options->allow_missing, allow_missing_help);
     command->add_flag("--json", options->json, "Print JSON");
     command->add_option("--dump", options->dump, "Write the scene with all defaults, parameters, includes and transforms resolved; meshes and images go beside it")
         ->type_name("FILE");

@@ -9,6 +9,10 @@
 
 namespace sundog {
 
+// Of render and info.
+constexpr const char* allow_missing_help = "Render plain stand-ins for plugins that are not supported, with a warning each: grey bsdfs and textures; "
+                                           "shapes, emitters and media are left out";
+
 // {"a=1", "b=x=y"} to {a: "1", b: "x=y"}; the last of several values counts. `option` is for messages.
 std::map<std::string, std::string> parse_assignments(const std::string& option, const std::vector<std::string>& texts);
 

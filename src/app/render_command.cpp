@@ -41,6 +41,7 @@ struct RenderOptions {
     std::string stats;
     std::string checkpoint;
     std::optional<std::string> checkpoint_every;
+    bool allow_missing = false;
     bool resume = false;
     bool errors = false;
     std::optional<std::string> target_error;
@@ -127,6 +128,7 @@ RenderPlan make_plan(const RenderOptions& options)
     plan.progress = choose_progress(options);
     plan.exposure_stops = static_cast<float>(parse_finite("--exposure", options.exposure));
     plan.load.defines = parse_assignments("-D", options.defines);
+    plan.load.allow_missing = options.allow_missing;
     if (options.texture_memory) plan.load.texture_bytes = parse_megabytes("--texture-memory", *options.texture_memory);
     plan.settings.method = options.method;
     plan.settings.parameters = parse_assignments("--param", options.parameters);
@@ -363,6 +365,7 @@ void add_render_command(CLI::App& app, ExitStatus& status)
     command->add_option("--size", options->size, "Film size in pixels, instead of the scene's")->type_name("WxH");
     command->add_option("-d,--device", options->device, "OpenCL device: index, part of the name, cpu, gpu or all")->type_name("SELECTOR");
     command->add_option("--texture-memory", options->texture_memory, "Budget for bitmaps, default 1024; larger ones are scaled down, with a warning")->type_name("MB");
+    command->add_flag("--allow-missing", options->allow_missing, allow_missing_help);
     command->add_option("--exposure", options->exposure, "Scale PNG by 2^STOPS")->type_name("STOPS");
     command->add_option("--progress", options->progress, "auto (a bar on a terminal, plain lines elsewhere), bar, plain, json or off")->type_name("MODE");
     command->add_option("--stats", options->stats, "Write counts and times as JSON")->type_name("FILE");

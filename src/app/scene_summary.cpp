@@ -30,6 +30,10 @@ const char* kind(const PhongBsdf&)
 {
     return "phong";
 }
+const char* kind(const CoatingBsdf& bsdf)
+{
+    return bsdf.roughness ? "roughcoating" : "coating";
+}
 const char* kind(const MaskBsdf&) { return "mask"; }
 const char* kind(const BlendBsdf&) { return "blendbsdf"; }
 const char* kind(const NormalMapBsdf&)
@@ -47,6 +51,10 @@ const char* kind(const SpotEmitter&) { return "spot"; }
 const char* kind(const DirectionalEmitter&) { return "directional"; }
 const char* kind(const ConstantEmitter&) { return "constant"; }
 const char* kind(const EnvironmentEmitter&) { return "envmap"; }
+const char* kind(const SunSkyEmitter& emitter)
+{
+    return emitter.sun_scale == 0.0f ? "sky" : emitter.sky_scale == 0.0f ? "sun" : "sunsky";
+}
 const char* kind(const ProjectorEmitter&) { return "projector"; }
 const char* kind(const CollimatedEmitter&) { return "collimated"; }
 

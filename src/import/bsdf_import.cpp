@@ -5,6 +5,7 @@
 #include "scene/materials.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 namespace sundog
@@ -14,7 +15,7 @@ namespace
 {
 
 constexpr const char* supported_bsdfs = "diffuse, dielectric, roughdielectric, thindielectric, conductor, roughconductor, plastic, "
-                                        "roughplastic, principled, phong, mask, blendbsdf, mixturebsdf, normalmap, bumpmap, twosided, null";
+                                        "roughplastic, principled, phong, coating, roughcoating, mask, blendbsdf, mixturebsdf, normalmap, bumpmap, twosided, null";
 constexpr uint max_nesting = 6; // of masks and blends: the device has room for a few more
 constexpr double max_alpha = 1.0;
 constexpr double max_exponent = 1e5; // beyond it single precision has no digits for the lobe
@@ -26,8 +27,6 @@ struct Refusal {
 };
 constexpr Refusal refusals[] = {
     {"ward", "use principled with its roughness and anisotropic, or blendbsdf of diffuse and roughconductor"},
-    {"coating", "use plastic over a diffuse base, principled with clearcoat, or blendbsdf of the coated bsdf and conductor"},
-    {"roughcoating", "use roughplastic over a diffuse base, principled with clearcoat, or blendbsdf of the coated bsdf and roughconductor"},
     {"difftrans", "use diffuse, or roughdielectric"},
     {"hk", "use diffuse"},
     {"irawan", "use diffuse with a bitmap"},
@@ -42,6 +41,14 @@ constexpr Refusal refusals[] = {
     {"retarder", "use null: light is not polarised here"},
     {"circular", "use mask over null to dim light: it is not polarised here"},
 };
+
+// Whether a layer may lie over it: opaque lobes about the surface's own normal, without an interface of their own.
+bool can_be_coated(const std::vector<BsdfDescription>& bsdfs, uint index)
+{
+    const auto& model = bsdfs[index].model;
+    if (const auto* blend = std::get_if<BlendBsdf>(&model)) return can_be_coated(bsdfs, blend->nested[0]) && can_be_coated(bsdfs, blend->nested[1]);
+    return std::holds_alternative<DiffuseBsdf>(model) || std::holds_alternative<ConductorBsdf>(model) || std::holds_alternative<PhongBsdf>(model);
+}
 
 bool transmits(const std::vector<BsdfDescription>& bsdfs, uint index)
 {
@@ -88,6 +95,7 @@ uint BsdfImporter::nesting(uint bsdf) const
     if (const auto* blend = std::get_if<BlendBsdf>(&model)) return 1 + std::max(nesting(blend->nested[0]), nesting(blend->nested[1]));
     if (const auto* map = std::get_if<NormalMapBsdf>(&model)) return 1 + nesting(map->nested);
     if (const auto* map = std::get_if<BumpMapBsdf>(&model)) return 1 + nesting(map->nested);
+    if (const auto* coating = std::get_if<CoatingBsdf>(&model)) return 1 + nesting(coating->nested);
     if (const auto* sides = std::get_if<TwoSidedBsdf>(&model)) return std::max(nesting(sides->front), nesting(sides->back));
     return 0;
 }
@@ -114,6 +122,7 @@ BsdfImporter::Model BsdfImporter::read(ObjectReader& reader)
     if (type == "plastic" || type == "roughplastic") return read_plastic(reader, type == "roughplastic");
     if (type == "principled") return read_principled(reader, textures_);
     if (type == "phong") return read_phong(reader);
+    if (type == "coating" || type == "roughcoating") return read_coating(reader, type == "roughcoating");
     if (type == "null") return NullBsdf{};
     if (type == "mask") return read_mask(reader);
     if (type == "blendbsdf") return read_blend(reader);
@@ -121,9 +130,10 @@ BsdfImporter::Model BsdfImporter::read(ObjectReader& reader)
     if (type == "bumpmap") return read_bump_map(reader);
     if (type == "mixturebsdf") return read_mixture(reader);
     if (type == "twosided") return read_two_sided(reader);
-    for (const Refusal& refusal : refusals)
-        if (type == refusal.type) throw SceneError(reader.where(), "bsdf plugin '" + type + "' is not supported: " + refusal.cure);
-    reader.unsupported(supported_bsdfs);
+    const auto refusal = std::find_if(std::begin(refusals), std::end(refusals), [&](const Refusal& r) { return type == r.type; });
+    reader.missing(refusal != std::end(refusals) ? std::string(": ") + refusal->cure : std::string("; supported are ") + supported_bsdfs,
+                   "a diffuse bsdf of reflectance 0.5 stands in for it");
+    return DiffuseBsdf{};
 }
 
 DielectricBsdf BsdfImporter::read_dielectric(ObjectReader& reader, bool thin)
@@ -229,6 +239,29 @@ PhongBsdf BsdfImporter::read_phong(ObjectReader& reader)
     for (ColorSource* part : {&bsdf.diffuse_reflectance, &bsdf.specular_reflectance}) part->value = part->value * (0.99f / most);
     index_.warn(reader.where(), "diffuse_reflectance and specular_reflectance of a phong bsdf add up to more than 1 and were scaled to 0.99",
                 WarningKind::approximated);
+    return bsdf;
+}
+
+// 0.6: both index and absorption of a layer; the roughness is that of its surface.
+CoatingBsdf BsdfImporter::read_coating(ObjectReader& reader, bool rough)
+{
+    CoatingBsdf bsdf;
+    bsdf.int_ior = reader.ior("int_ior", "bk7");
+    bsdf.ext_ior = reader.ior("ext_ior", "air");
+    const double thickness = reader.number("thickness", 1.0);
+    if (!(thickness >= 0.0 && thickness <= 1e30)) throw SceneError(reader.where_of("thickness"), "thickness of a " + reader.type() + " must be >= 0 and finite");
+    bsdf.thickness = static_cast<float>(thickness);
+    bsdf.sigma_a = textures_.color(reader, "sigma_a", {0, 0, 0}, ColorRole::index);
+    bsdf.specular_reflectance = reflectance(reader, "specular_reflectance", {1, 1, 1});
+    if (rough) {
+        for (const char* name : {"alpha_u", "alpha_v"}) reader.refuse(name, "a coating is as rough along u as along v: give it 'alpha'");
+        bsdf.roughness = read_roughness(reader);
+    }
+    bsdf.nested = nested(reader, 1, 1).front();
+    if (!can_be_coated(bsdfs_, bsdf.nested))
+        throw SceneError(bsdfs_[bsdf.nested].where, "a " + reader.type() + " may lie over diffuse, conductor, roughconductor, phong, and blends of these: "
+                                                    "put twosided, normalmap, bumpmap and mask around the coating; in place of a coat of plastic or "
+                                                    "principled, or of another coating, keep the outer coat alone");
     return bsdf;
 }
 

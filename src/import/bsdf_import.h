@@ -31,6 +31,7 @@ private:
     ConductorBsdf read_conductor(ObjectReader& reader);
     void read_conductor_index(ObjectReader& reader, ConductorBsdf& bsdf);
     PlasticBsdf read_plastic(ObjectReader& reader, bool rough);
+    CoatingBsdf read_coating(ObjectReader& reader, bool rough);
     PhongBsdf read_phong(ObjectReader& reader);
     Roughness read_roughness(ObjectReader& reader);
     TwoSidedBsdf read_two_sided(ObjectReader& reader);

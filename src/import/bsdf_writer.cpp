@@ -72,6 +72,18 @@ void BsdfWriter::write(ObjectWriter root, const std::string& id, const PhongBsdf
     textures_.number(object, "exponent", bsdf.exponent);
 }
 
+void BsdfWriter::write(ObjectWriter root, const std::string& id, const CoatingBsdf& bsdf) const
+{
+    ObjectWriter object = root.object("bsdf", bsdf.roughness ? "roughcoating" : "coating", "", id);
+    object.number("int_ior", bsdf.int_ior);
+    object.number("ext_ior", bsdf.ext_ior);
+    object.number("thickness", bsdf.thickness);
+    textures_.color(object, "sigma_a", bsdf.sigma_a);
+    textures_.color(object, "specular_reflectance", bsdf.specular_reflectance);
+    write_roughness(object, bsdf.roughness);
+    object.reference(ids_[bsdf.nested]);
+}
+
 void BsdfWriter::write(ObjectWriter root, const std::string& id, const NormalMapBsdf& bsdf) const
 {
     ObjectWriter object = root.object("bsdf", "normalmap", "", id);

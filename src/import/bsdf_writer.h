@@ -23,6 +23,7 @@ private:
     void write(ObjectWriter root, const std::string& id, const PlasticBsdf& bsdf) const;
     void write(ObjectWriter root, const std::string& id, const PrincipledBsdf& bsdf) const;
     void write(ObjectWriter root, const std::string& id, const PhongBsdf& bsdf) const;
+    void write(ObjectWriter root, const std::string& id, const CoatingBsdf& bsdf) const;
     void write(ObjectWriter root, const std::string& id, const NormalMapBsdf& bsdf) const;
     void write(ObjectWriter root, const std::string& id, const BumpMapBsdf& bsdf) const;
     void write(ObjectWriter root, const std::string& id, const NullBsdf& bsdf) const;

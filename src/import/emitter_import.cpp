@@ -2,6 +2,7 @@
 
 #include "import/bitmap.h"
 #include "import/sensor_import.h"
+#include "import/sky_import.h"
 #include "math/direction.h"
 
 #include <numbers>
@@ -125,23 +126,21 @@ EnvironmentEmitter read_environment(ObjectReader& reader)
 }
 
 // Says, for emitters that are not supported, what to use instead.
-[[noreturn]] void refuse_type(const ObjectReader& reader)
+void leave_out(ObjectReader& reader)
 {
     constexpr std::pair<const char*, const char*> cures[] = {
-        {"sky", "render it to a latitude-longitude image and use that in an envmap"},
-        {"sun", "use a directional emitter, or an envmap whose image has the sun in it"},
-        {"sunsky", "render it to a latitude-longitude image and use that in an envmap"},
         {"directionalarea", "use a directional emitter behind a hole of that shape"},
         {"volumelight", "use an area emitter on the volume's surface"},
     };
+    std::string details = "; supported are area (inside a shape), point, spot, directional, constant, envmap, sky, sun, sunsky, projector, collimated";
     for (const auto& [type, cure] : cures)
-        if (reader.type() == type) throw SceneError(reader.where(), "emitter plugin '" + reader.type() + "' is not supported: " + cure);
-    reader.unsupported("area (inside a shape), point, spot, directional, constant, envmap, projector, collimated");
+        if (reader.type() == type) details = std::string(": ") + cure;
+    reader.missing(details, "it is left out");
 }
 
 } // namespace
 
-EmitterDescription import_emitter(const XmlElement& element, const SceneIndex& index, TextureImporter& textures)
+std::optional<EmitterDescription> import_emitter(const XmlElement& element, const SceneIndex& index, TextureImporter& textures)
 {
     ObjectReader reader(element, index);
     const std::string type = reader.type();
@@ -161,19 +160,26 @@ EmitterDescription import_emitter(const XmlElement& element, const SceneIndex& i
         description.model = read_projector(reader, textures);
     else if (type == "envmap")
         description.model = read_environment(reader);
+    else if (type == "sky" || type == "sun" || type == "sunsky")
+        description.model = read_sun_sky(reader);
     else if (type == "area")
         throw SceneError(element.where, "an area emitter must be inside the <shape> that emits");
-    else
-        refuse_type(reader);
+    else {
+        leave_out(reader);
+        return {};
+    }
     ignore_sampling_weight(reader);
     reader.finish();
     return description;
 }
 
-AreaEmitter import_area_emitter(const XmlElement& element, const SceneIndex& index, TextureImporter& textures)
+std::optional<AreaEmitter> import_area_emitter(const XmlElement& element, const SceneIndex& index, TextureImporter& textures)
 {
     ObjectReader reader(element, index);
-    if (reader.type() == "directionalarea") refuse_type(reader);
+    if (reader.type() == "directionalarea" || reader.type() == "volumelight") {
+        leave_out(reader);
+        return {};
+    }
     if (reader.type() != "area")
         throw SceneError(element.where, "emitter plugin '" + reader.type() + "' cannot be inside a shape: only area emitters can");
     const ColorSource radiance = textures.color(reader, "radiance", {1, 1, 1}, ColorRole::emission);

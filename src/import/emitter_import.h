@@ -7,10 +7,11 @@
 namespace sundog
 {
 
-// An emitter of the scene itself. Throws SceneError for unsupported ones, and for area emitters, which belong in a shape.
-EmitterDescription import_emitter(const XmlElement& element, const SceneIndex& index, TextureImporter& textures);
+// An emitter of the scene itself; nothing for one that is left out. Throws SceneError for unsupported ones unless they may be,
+// and for area emitters, which belong in a shape.
+std::optional<EmitterDescription> import_emitter(const XmlElement& element, const SceneIndex& index, TextureImporter& textures);
 
-// The emitter inside a shape. Throws SceneError for anything but an area emitter.
-AreaEmitter import_area_emitter(const XmlElement& element, const SceneIndex& index, TextureImporter& textures);
+// The emitter inside a shape; nothing for one that is left out. Throws SceneError for others than area emitters.
+std::optional<AreaEmitter> import_area_emitter(const XmlElement& element, const SceneIndex& index, TextureImporter& textures);
 
 } // namespace sundog

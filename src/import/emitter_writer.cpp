@@ -94,6 +94,22 @@ struct EmitterWriter {
         object.transform("to_world", frame(environment.axis_x, environment.axis_y, environment.axis_z, {0, 0, 0}));
     }
 
+    // stretch and extend are Mitsuba 0.6's: Mitsuba 3 has neither, so they are written only where they do something.
+    void operator()(const SunSkyEmitter& emitter)
+    {
+        ObjectWriter object = root.object("emitter", "sunsky");
+        object.transform("to_world", pose_around_axis({0, 0, 0}, emitter.up));
+        object.vector("vector", "sun_direction", emitter.sun_direction);
+        object.number("turbidity", emitter.turbidity);
+        object.color("albedo", emitter.albedo);
+        object.number("sky_scale", emitter.sky_scale);
+        object.number("sun_scale", emitter.sun_scale);
+        object.number("sun_aperture", emitter.sun_aperture);
+        object.boolean("complex_sun", emitter.limb_darkening);
+        if (emitter.stretch != 1.0f) object.number("stretch", emitter.stretch);
+        if (emitter.extend) object.boolean("extend", true);
+    }
+
     void operator()(const ProjectorEmitter& projector)
     {
         ObjectWriter object = root.object("emitter", "projector");

@@ -54,22 +54,29 @@ void InstanceImporter::import_instance(const XmlElement& element)
     instance.where = element.where;
     instance.to_world = read_to_world(reader, scene_.sensor.shutter);
     reader.finish();
-    instance.group = import_group(*group->object);
+    const auto shown = import_group(*group->object);
+    if (!shown) return;
+    instance.group = *shown;
     scene_.instances.push_back(std::move(instance));
 }
 
-uint InstanceImporter::import_group(const XmlElement& element)
+std::optional<uint> InstanceImporter::import_group(const XmlElement& element)
 {
-    const auto [entry, added] = imported_.emplace(&element, static_cast<uint>(scene_.groups.size()));
+    const auto group = static_cast<uint>(scene_.groups.size());
+    const auto [entry, added] = imported_.emplace(&element, group);
     if (!added) return entry->second;
-    const uint group = entry->second;
+    const std::size_t first_shape = scene_.shapes.size();
     scene_.groups.push_back({id_of(element), element.where});
     ObjectReader reader(element, index_);
     const auto members = reader.nested("shape");
     if (members.empty()) throw SceneError(element.where, "the shapegroup is empty: put the shapes that its instances show into it");
     for (const NestedObject& member : members) import_member(member, group);
     reader.finish();
-    return group;
+    if (scene_.shapes.size() == first_shape) { // all of them are left out
+        scene_.groups.pop_back();
+        entry->second.reset();
+    }
+    return entry->second;
 }
 
 void InstanceImporter::import_member(const NestedObject& member, uint group)

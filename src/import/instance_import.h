@@ -26,7 +26,7 @@ public:
 
 private:
     void import_instance(const XmlElement& element);
-    uint import_group(const XmlElement& element);
+    std::optional<uint> import_group(const XmlElement& element); // nothing where all of it is left out
     void import_member(const NestedObject& member, uint group);
 
     const SceneIndex& index_;
@@ -34,7 +34,7 @@ private:
     TextureImporter& textures_;
     Scene& scene_;
     std::vector<const XmlElement*> declared_;
-    std::map<const XmlElement*, uint> imported_;
+    std::map<const XmlElement*, std::optional<uint>> imported_;
 };
 
 } // namespace sundog

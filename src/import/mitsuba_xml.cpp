@@ -32,7 +32,8 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
     for (const auto& shape : root.nested("shape"))
         if (!instances.import(*shape.object)) import_shape(*shape.object, index, bsdfs, textures, scene);
     instances.finish();
-    for (const auto& emitter : root.nested("emitter")) scene.emitters.push_back(import_emitter(*emitter.object, index, textures));
+    for (const auto& emitter : root.nested("emitter"))
+        if (auto imported = import_emitter(*emitter.object, index, textures)) scene.emitters.push_back(std::move(*imported));
 
     // Declared for those who refer to them, who complain about what they cannot use.
     for (const char* tag : {"bsdf", "texture", "medium", "volume", "phase"}) root.nested(tag);
@@ -46,7 +47,7 @@ LoadedScene load_scene(const std::filesystem::path& file, const LoadOptions& opt
     LoadedScene loaded;
     loaded.scene.file = file.string();
     const XmlScene xml = read_scene_xml(file, options.defines, loaded.warnings);
-    const SceneIndex index(xml, loaded.warnings);
+    const SceneIndex index(xml, loaded.warnings, options.allow_missing);
     import_objects(xml, index, loaded.scene);
     fit_texture_budget(loaded.scene, options.texture_bytes, loaded.warnings);
     validate_scene(loaded.scene, loaded.warnings);

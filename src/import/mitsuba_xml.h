@@ -24,6 +24,7 @@ namespace sundog
 
 struct LoadOptions {
     std::map<std::string, std::string> defines; // -D NAME=VALUE: override the scene's <default>s
+    bool allow_missing = false; // plain stand-ins for what is not supported, with a warning each
     std::uint64_t texture_bytes = std::uint64_t{1} << 30; // budget; larger bitmaps are scaled down
 };
 

@@ -244,8 +244,14 @@ void ObjectReader::finish()
         }
         const XmlElement& object = child.tag == "ref" ? index_.resolve(child) : child;
         const std::string* type = object.attribute("type");
-        throw SceneError(child.where, object.tag + (type ? " plugin '" + *type + "'" : "") + " is not supported in " + describe());
+        index_.missing(child.where, object.tag + (type ? " plugin '" + *type + "'" : ""), " in " + describe(), "it is left out");
     }
+}
+
+void ObjectReader::missing(const std::string& details, const std::string& stand_in)
+{
+    index_.missing(where(), element_.tag + " plugin '" + type() + "'", details, stand_in);
+    for (const auto& child : element_.children) used_.insert(&child);
 }
 
 void ObjectReader::unsupported(const std::string& supported) const

@@ -63,6 +63,8 @@ public:
     void finish();
 
     [[noreturn]] void unsupported(const std::string& supported) const; // this plugin
+    // This plugin is not supported, as SceneIndex::missing says; nothing inside it is read.
+    void missing(const std::string& details, const std::string& stand_in);
 
     const SceneIndex& index() const { return index_; }
 

@@ -13,9 +13,16 @@ bool is_object_tag(std::string_view tag)
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 
-SceneIndex::SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings) : scene_(scene), warnings_(warnings)
+SceneIndex::SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings, bool allow_missing)
+    : scene_(scene), warnings_(warnings), allow_missing_(allow_missing)
 {
     collect(scene.root);
+}
+
+void SceneIndex::missing(const SourceLocation& where, const std::string& what, const std::string& details, const std::string& stand_in) const
+{
+    if (!allow_missing_) throw SceneError(where, what + " is not supported" + details + "; with --allow-missing " + stand_in);
+    warn(where, what + " is not supported: " + stand_in, WarningKind::approximated);
 }
 
 void SceneIndex::collect(const XmlElement& element)

@@ -16,7 +16,7 @@ class SceneIndex
 {
 public:
     // Keeps references to both. Throws SceneError for an id that is given twice.
-    SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings);
+    SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings, bool allow_missing = false);
 
     // The object that a <ref> means, through any <alias>. Throws SceneError for unknown ids.
     const XmlElement& resolve(const XmlElement& reference) const;
@@ -31,12 +31,17 @@ public:
     }
     bool legacy() const { return scene_.legacy; }
 
+    // `what` is not supported: a warning that says what stands in for it ("it is left out") where the user allows that, else
+    // SceneError with the details (": use diffuse") as well.
+    void missing(const SourceLocation& where, const std::string& what, const std::string& details, const std::string& stand_in) const;
+
 private:
     void collect(const XmlElement& element);
     void add(const std::string& id, const XmlElement& element);
 
     const XmlScene& scene_;
     std::vector<Warning>& warnings_;
+    bool allow_missing_;
     std::map<std::string, const XmlElement*, std::less<>> objects_; // an <alias> stands for itself
 };
 

@@ -6,6 +6,8 @@
 #include "import/mesh_parts.h"
 #include "math/direction.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace sundog
@@ -93,8 +95,14 @@ Cylinder import_cylinder(ObjectReader& reader)
     return cylinder;
 }
 
+bool is_supported(const std::string& type)
+{
+    constexpr const char* types[] = {"obj", "ply", "serialized", "rectangle", "cube", "sphere", "disk", "cylinder"};
+    return std::find(std::begin(types), std::end(types), type) != std::end(types);
+}
+
 // Shapes that Mitsuba has and Sundog does not, each with the way around it.
-[[noreturn]] void refuse_by_name(const ObjectReader& reader)
+void leave_out(ObjectReader& reader)
 {
     constexpr const char* as_mesh = "convert it to a mesh (ply or obj)";
     static const std::map<std::string, const char*> cures = {
@@ -109,8 +117,9 @@ Cylinder import_cylinder(ObjectReader& reader)
         {"merge", "put its shapes into the scene themselves"},
     };
     const auto cure = cures.find(reader.type());
-    if (cure != cures.end()) throw SceneError(reader.where(), "shape plugin '" + cure->first + "' is not supported: " + cure->second);
-    reader.unsupported("obj, ply, serialized, rectangle, cube, sphere, disk, cylinder, shapegroup, instance");
+    reader.missing(cure != cures.end() ? std::string(": ") + cure->second
+                                       : "; supported are obj, ply, serialized, rectangle, cube, sphere, disk, cylinder, shapegroup, instance",
+                   "it is left out");
 }
 
 class ShapeImport
@@ -127,6 +136,7 @@ public:
     void run()
     {
         const std::string type = reader_.type();
+        if (!is_supported(type)) return leave_out(reader_);
         const auto emitter = reader_.single("emitter");
         if (emitter) common_.emitter = import_area_emitter(*emitter->object, reader_.index(), textures_);
         read_placement(emitter);
@@ -165,8 +175,7 @@ private:
         if (type == "cube") return import_cube(reader_);
         if (type == "sphere") return import_sphere(reader_);
         if (type == "disk") return import_disk(reader_);
-        if (type == "cylinder") return import_cylinder(reader_);
-        refuse_by_name(reader_);
+        return import_cylinder(reader_);
     }
 
     void add_obj_with_materials()

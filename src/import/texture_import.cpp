@@ -122,8 +122,10 @@ ColorSource TextureImporter::import(const XmlElement& element)
         source.value = source.value * static_cast<float>(reader.number("scale", 1.0));
     } else if (type == "scale")
         source = read_scale(reader);
-    else
-        reader.unsupported(supported_textures);
+    else {
+        reader.missing(std::string("; supported are ") + supported_textures, "a grey of 0.5 stands in for it");
+        source = ColorSource(Vec3{0.5f, 0.5f, 0.5f});
+    }
     reader.finish();
     imported_[&element] = source;
     return source;

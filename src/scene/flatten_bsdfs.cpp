@@ -141,6 +141,17 @@ struct BsdfFlattener {
         bsdf.alpha_u = bsdf.alpha_v = flatten(phong.exponent);
         return bsdf;
     }
+    Bsdf operator()(const CoatingBsdf& coating) const
+    {
+        Bsdf bsdf = record(coating.roughness ? BSDF_ROUGH_COATING : BSDF_COATING, lobe_flags(coating.roughness));
+        bsdf.eta = coating.int_ior / coating.ext_ior;
+        bsdf.specular = flatten(coating.specular_reflectance);
+        bsdf.transmittance = flatten(coating.sigma_a);
+        bsdf.transmittance.value = bsdf.transmittance.value * coating.thickness;
+        set_roughness(bsdf, coating.roughness);
+        bsdf.nested[0] = coating.nested;
+        return bsdf;
+    }
     Bsdf operator()(const NullBsdf&) const { return record(BSDF_NULL, no_flags); }
     Bsdf operator()(const MaskBsdf& mask) const
     {
@@ -196,6 +207,10 @@ uint lobes_of(const Bsdf& bsdf)
     case BSDF_PRINCIPLED:
         return bit(LOBE_PRINCIPLED_DIFFUSE) | bit(LOBE_PRINCIPLED_SPECULAR) | (bsdf.flags & BSDF_CLEARCOATED ? bit(LOBE_CLEARCOAT) : 0u) |
                (bsdf.flags & BSDF_TRANSMITS ? bit(LOBE_ROUGH_DIELECTRIC) : 0u);
+    case BSDF_COATING:
+        return bit(LOBE_CONDUCTOR);
+    case BSDF_ROUGH_COATING:
+        return bit(LOBE_ROUGH_CONDUCTOR);
     case BSDF_PHONG:
         return bit(LOBE_DIFFUSE) | bit(LOBE_PHONG);
     default:
@@ -209,6 +224,8 @@ constexpr uint inherited_flags = BSDF_HAS_SMOOTH | BSDF_HAS_BROAD; // from any p
 void take_from_nested(const BsdfDescription& description, std::vector<Bsdf>& bsdfs, std::size_t i)
 {
     if (const auto* mask = std::get_if<MaskBsdf>(&description.model)) bsdfs[i].flags |= bsdfs.at(mask->nested).flags & (inherited_flags | BSDF_BLACK_BACK);
+    if (const auto* coating = std::get_if<CoatingBsdf>(&description.model))
+        bsdfs[i].flags |= bsdfs.at(coating->nested).flags & (inherited_flags | BSDF_BLACK_BACK);
     if (const auto* map = std::get_if<NormalMapBsdf>(&description.model))
         bsdfs[i].flags |= bsdfs.at(map->nested).flags & (inherited_flags | BSDF_BLACK_BACK);
     if (const auto* map = std::get_if<BumpMapBsdf>(&description.model))
@@ -289,8 +306,8 @@ bool has_lobes_to_evaluate(std::span<const Bsdf> bsdfs)
 {
     constexpr uint evaluated = bit(LOBE_ROUGH_CONDUCTOR) | bit(LOBE_ROUGH_DIELECTRIC) | bit(LOBE_COATED_DIFFUSE) |
                                bit(LOBE_PRINCIPLED_DIFFUSE) | bit(LOBE_PRINCIPLED_SPECULAR) | bit(LOBE_CLEARCOAT) | bit(LOBE_PHONG);
-    constexpr uint turned = bit(BSDF_NORMAL_MAP) | bit(BSDF_BUMP_MAP); // of which even diffuse ones are evaluated
-    return (lobe_types(bsdfs) & evaluated) != 0 || (bsdf_types(bsdfs) & turned) != 0;
+    constexpr uint changed = bit(BSDF_NORMAL_MAP) | bit(BSDF_BUMP_MAP) | bit(BSDF_COATING) | bit(BSDF_ROUGH_COATING); // even of diffuse ones
+    return (lobe_types(bsdfs) & evaluated) != 0 || (bsdf_types(bsdfs) & changed) != 0;
 }
 
 } // namespace sundog

@@ -1,6 +1,7 @@
 #include "scene/light_list.h"
 
 #include "scene/flatten_environment.h"
+#include "scene/paint_sky.h"
 #include "scene/texel_values.h"
 
 #include <algorithm>
@@ -115,9 +116,18 @@ struct EmitterFlattener {
     Light operator()(const EnvironmentEmitter& environment) const
     {
         Light light = dark_light(LIGHT_ENVMAP);
-        light.primitive = append_environment(environment, where, flat);
+        light.primitive = append_environment({environment}, where, flat);
         light.emission = Vec3{1, 1, 1} * environment.scale;
         light.area = static_cast<float>(mean_luminance(environment));
+        return light;
+    }
+    Light operator()(const SunSkyEmitter& emitter) const
+    {
+        Light light = dark_light(LIGHT_ENVMAP);
+        const Surroundings surroundings = paint_sky(emitter);
+        light.primitive = append_environment(surroundings, where, flat);
+        light.emission = {1, 1, 1};
+        light.area = static_cast<float>(mean_luminance(surroundings));
         return light;
     }
 

@@ -218,6 +218,18 @@ struct BumpMapBsdf {
     uint nested = 0;
 };
 
+// A dielectric layer over another BSDF [Weidlich and Wilkie 2007]: one that is opaque and one-sided, and has no interface of
+// its own.
+struct CoatingBsdf {
+    float int_ior = 1.5046f;   // bk7
+    float ext_ior = 1.000277f; // air
+    float thickness = 1.0f;    // in units of 1 / sigma_a
+    ColorSource sigma_a{0, 0, 0}; // absorption within the layer
+    ColorSource specular_reflectance;
+    std::optional<Roughness> roughness = std::nullopt; // of the layer's surface: isotropic
+    uint nested = 0; // index into Scene::bsdfs
+};
+
 struct NullBsdf {};
 
 // `nested` where the mask is opaque, else nothing at all.
@@ -241,7 +253,7 @@ struct BsdfDescription {
     std::string id; // as in the file, may be empty
     SourceLocation where;
     std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, NullBsdf, TwoSidedBsdf, MaskBsdf, BlendBsdf, PlasticBsdf, NormalMapBsdf,
-                 BumpMapBsdf, PrincipledBsdf, PhongBsdf>
+                 BumpMapBsdf, PrincipledBsdf, PhongBsdf, CoatingBsdf>
         model;
 };
 
@@ -328,9 +340,23 @@ struct EnvironmentEmitter {
     Vec3 axis_z{0, 0, 1};
 };
 
+// A clear sky and the sun's disk in it [Hosek and Wilkie 2012, 2013]; black below the horizon.
+struct SunSkyEmitter {
+    Vec3 up{0, 0, 1};            // unit length
+    Vec3 sun_direction{0, 0, 1}; // towards the sun, not below the horizon; unit length
+    float turbidity = 3.0f;      // 1 to 10
+    Vec3 albedo{0.3f, 0.3f, 0.3f}; // of the ground: 0 to 1
+    float sky_scale = 1.0f;
+    float sun_scale = 1.0f;
+    float sun_aperture = 0.5358f; // angle under which the sun is seen (degrees); its power stays the same
+    bool limb_darkening = true;   // the sun is darker towards its rim; else its radiance is the mean
+    float stretch = 1.0f;         // 1 to 2: angles to the zenith are this much wider, the horizon lies lower
+    bool extend = false;          // the horizon's radiance below it, instead of black
+};
+
 struct EmitterDescription {
     SourceLocation where;
-    std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter, EnvironmentEmitter, ProjectorEmitter, CollimatedEmitter> model;
+    std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter, EnvironmentEmitter, ProjectorEmitter, CollimatedEmitter, SunSkyEmitter> model;
 };
 
 // --- Sensor and film ------------------------------------------------------------

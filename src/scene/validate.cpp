@@ -2,6 +2,7 @@
 
 #include "scene/flatten_environment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -50,8 +51,15 @@ Vec3 emission_of(const EmitterDescription& emitter)
         Vec3 operator()(const ConstantEmitter& e) const { return e.radiance; }
         Vec3 operator()(const ProjectorEmitter& e) const { return e.irradiance; }
         Vec3 operator()(const EnvironmentEmitter& e) const { return Vec3{1, 1, 1} * static_cast<float>(e.scale * mean_luminance(e)); }
+        Vec3 operator()(const SunSkyEmitter& e) const { return Vec3{1, 1, 1} * std::max(e.sky_scale, e.sun_scale); }
     };
     return std::visit(Emission{}, emitter.model);
+}
+
+bool surrounds(const EmitterDescription& emitter)
+{
+    return std::holds_alternative<ConstantEmitter>(emitter.model) || std::holds_alternative<EnvironmentEmitter>(emitter.model) ||
+           std::holds_alternative<SunSkyEmitter>(emitter.model);
 }
 
 constexpr const char* dark = "a light that emits nothing is left out";
@@ -77,8 +85,8 @@ void check_emitters(Scene& scene, std::vector<Warning>& warnings)
     bool environment = false;
     for (std::size_t i = 0; i < scene.emitters.size();) {
         const auto& emitter = scene.emitters[i];
-        if (std::holds_alternative<ConstantEmitter>(emitter.model) || std::holds_alternative<EnvironmentEmitter>(emitter.model)) {
-            if (environment) throw SceneError(emitter.where, "the scene has two environments: keep one constant or envmap emitter");
+        if (surrounds(emitter)) {
+            if (environment) throw SceneError(emitter.where, "the scene has two environments: keep one constant, envmap, sky, sun or sunsky emitter");
             environment = true;
         }
         if (max_component(emission_of(emitter)) > 0.0f) {

@@ -84,8 +84,6 @@ TEST(ImportLights, WrongSpectraAreRefused)
     expect_refusal(light("uniform", ""), "needs a <float name=\"value\">");
     expect_refusal(light("rainbow", ""), "supported are blackbody, d65, irregular, regular, srgb, uniform");
     // The cures that README and docs promise.
-    expect_refusal("<emitter type=\"sunsky\"/>", "latitude-longitude image");
-    expect_refusal("<emitter type=\"sun\"/>", "directional emitter");
     expect_refusal("<shape type=\"sphere\"><emitter type=\"directionalarea\"/></shape>", "behind a hole");
 }
 

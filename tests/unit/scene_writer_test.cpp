@@ -275,6 +275,29 @@ TEST(SceneWriter, EnvironmentMaps)
         }
 }
 
+TEST(SceneWriter, SunAndSky)
+{
+    for (const std::string& placed : {std::string(), mirrored}) {
+        for (const char* type : {"sunsky", "sky", "sun"})
+            for (const char* version : {"3.0.0", "0.6.0"})
+                expect_same("<emitter type=\"" + std::string(type) + R"(">
+                             <float name="turbidity" value="3.3"/><rgb name="albedo" value=".12, .23, .34"/></emitter>)", version);
+        expect_same(R"(<emitter type="sunsky"><vector name="sunDirection" x=".3" y=".4" z=".5"/><float name="stretch" value="1.17"/>
+                       <boolean name="extend" value="true"/><float name="sunRadiusScale" value="3.3"/><float name="skyScale" value=".7"/>)" + placed + "</emitter>");
+    }
+    expect_same(R"(<emitter type="sunsky"><float name="sun_aperture" value="1.23"/><boolean name="complex_sun" value="false"/></emitter>)");
+}
+
+TEST(SceneWriter, Coatings)
+{
+    for (const char* type : {"coating", "roughcoating"})
+        expect_same(shape("sphere", "<bsdf type=\"" + std::string(type) + R"("><float name="int_ior" value="1.33"/><float name="thickness" value=".7"/>
+            <rgb name="sigma_a" value=".1, .2, 1.3"/><rgb name="specular_reflectance" value=".9, .8, .7"/>
+            <bsdf type="blendbsdf"><float name="weight" value=".3"/><bsdf type="diffuse"/><bsdf type="roughconductor"/></bsdf></bsdf>)"));
+    expect_same(shape("sphere", R"(<bsdf type="roughcoating"><float name="alpha" value=".23"/><string name="distribution" value="ggx"/>
+        <texture name="sigma_a" type="checkerboard"/><bsdf type="phong"/></bsdf>)"));
+}
+
 TEST(SceneWriter, ProjectorsOfImages)
 {
     const SceneFolder folder;
