@@ -130,6 +130,7 @@ RenderPlan make_plan(const RenderOptions& options)
     if (options.texture_memory) plan.load.texture_bytes = parse_megabytes("--texture-memory", *options.texture_memory);
     plan.settings.method = options.method;
     plan.settings.parameters = parse_assignments("--param", options.parameters);
+    plan.settings.stop_requested = interrupt_requested;
     if (options.seed) plan.settings.seed = parse_count("--seed", *options.seed);
     if (!options.size.empty()) plan.settings.size = parse_size(options.size);
     if (!options.method.empty() && !find_method(options.method)) throw UsageError("unknown method \"" + options.method + "\"; sundog methods lists them");
@@ -259,7 +260,12 @@ IterationsEnd iterate(RenderSession& session, const RenderPlan& plan, std::optio
     };
     // At least one, so that there is an image.
     while (session.iterations_done() == 0 || (!finished() && !interrupt_requested())) {
-        session.iterate();
+        try {
+            session.iterate();
+        } catch (const Interrupted&) {
+            if (session.iterations_done() == 0) throw;
+            break;
+        }
         error.update(session, progress);
         progress.update(session.iterations_done(), timer.seconds());
         checkpoints.update(session);

@@ -155,13 +155,19 @@ float pixel_footprint(const Camera& camera, const Bounds& scene)
     return distance * width;
 }
 
+double largest_automatic_radius(float scene_radius)
+{
+    return 0.4 * static_cast<double>(scene_radius);
+}
+
 float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths, float pixel_footprint, double target_pixels)
 {
     const double radius = parameters.real("radius");
     if (radius > 0.0) return static_cast<float>(radius);
     // N photons on a sphere of radius R: N r^2 / (4 R^2) of them lie within r.
     const double by_density = 2.0 * static_cast<double>(scene_radius) * std::sqrt(target_photons / static_cast<double>(light_paths));
-    return static_cast<float>(std::min(by_density, target_pixels * static_cast<double>(pixel_footprint)));
+    return static_cast<float>(
+        std::min({by_density, target_pixels * static_cast<double>(pixel_footprint), largest_automatic_radius(scene_radius)}));
 }
 
 double scheduled_radius(double first_radius, double alpha, int dimensions, std::uint64_t iteration)

@@ -3,7 +3,7 @@
 #include "base/atomic_file.h"
 #include "methods/importons.h"
 #include "methods/photon_map_file.h"
-#include "methods/standard_parameters.h"
+#include "methods/photon_map_parameters.h"
 
 #include <algorithm>
 
@@ -30,12 +30,12 @@ PhotonMapOrigin origin_of(const RenderContext& context, const Parameters& parame
 std::size_t caustic_path_count(const Parameters& parameters, std::size_t pixels)
 {
     const std::int64_t photons = parameters.integer("caustic_photons");
-    return photons > 0 ? static_cast<std::size_t>(photons) : 4 * light_path_count(parameters, pixels);
+    return photons > 0 ? static_cast<std::size_t>(photons) : 4 * global_path_count(parameters, pixels);
 }
 
 PhotonTracerSettings global_settings(const RenderContext& context, const Parameters& parameters)
 {
-    PhotonTracerSettings settings{light_path_count(parameters, context.film.pixel_count()), path_rules(parameters), false,
+    PhotonTracerSettings settings{global_path_count(parameters, context.film.pixel_count()), path_rules(parameters), false,
                                   sampler_kind(parameters), PhotonsKept::scattered};
     // What is gathered is all the light that arrives.
     if (parameters.boolean("final_gather")) settings.kept = PhotonsKept::all;
@@ -72,6 +72,7 @@ TracedPhotons MapTracer::trace(PathPool& pool, std::uint64_t set, ImportanceMap*
     TracedPhotons traced;
     const std::uint64_t rays_before = pool.rays_traced();
     for (std::size_t batch = 0; batch < batches_; batch++) {
+        if (is_interrupted(context_)) throw Interrupted();
         // Batches and sets continue the points of one sequence; above 2^32 another begins (kernels/math/sampler.h).
         const SamplerKey key = sampler_key(context_.seed, (static_cast<std::uint64_t>(map_number_) << 32) + set * batches_ + batch);
         const std::size_t stored = tracer_.trace(context_.scene, pool, key, deposits_);

@@ -9,6 +9,7 @@
 #include "render/checkpoint.h"
 #include "scene/fingerprint.h"
 #include "scene/flat_scene.h"
+#include "scene/photon_spread.h"
 #include "shared/film.h"
 #include "stages/scene_motion.h"
 
@@ -136,11 +137,12 @@ struct RenderSession::State {
           device_scene(device, scene, is_spectral(parameters), light_selection(parameters)), camera(make_camera(scene.sensor, scene.film)),
           filter(make_pixel_filter(scene.film.filter)), film(make_film(device, scene.film, info, parameters, settings)),
           motion(device_scene, scene, camera, seed),
-          spectral(device, device_scene, seed), context{device, device_scene, camera, filter, film, spectral, seed, [this] { return light_fingerprint(flatten_scene(scene)); }},
+          spectral(device, device_scene, seed), context{device, device_scene, camera, filter, film, spectral, seed, [this] { return light_fingerprint(flatten_scene(scene)); }, settings.stop_requested},
           method(info.create(context, parameters))
     {
         warn_of_dispersion();
         warn_of_beams();
+        warn_of_photons();
     }
 
     void warn_of_dispersion() const
@@ -158,6 +160,13 @@ struct RenderSession::State {
             if (std::holds_alternative<CollimatedEmitter>(emitter.model))
                 log_warning(fmt::format("{}{} has no paths from lights, so this collimated emitter stays dark: choose sppm (-m sppm)",
                                         emitter.where.prefix(), info.name));
+    }
+
+    void warn_of_photons() const
+    {
+        const bool traces_photons = parameters.has("photons") && !(parameters.has("paths") && parameters.text("paths") != "bdpt");
+        if (!traces_photons) return;
+        if (const auto spread = warn_of_spread_photons(scene)) log_warning(*spread);
     }
 
     Scene scene;

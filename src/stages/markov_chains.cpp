@@ -55,11 +55,12 @@ void MarkovChains::propose_seeds(std::vector<uint> numbers)
     propose_seeds_(count, key_, seed_numbers_, count, chains_);
 }
 
-bool MarkovChains::start(std::size_t seeds, const std::function<const Buffer<float>&()>& evaluate)
+bool MarkovChains::start(std::size_t seeds, const std::function<const Buffer<float>&()>& evaluate, const std::function<void()>& before_batch)
 {
     std::vector<float> contributions;
     const uint first = static_cast<uint>(seeds_);
     while (contributions.size() < seeds) {
+        before_batch();
         const std::size_t batch = std::min(settings_.chains, seeds - contributions.size());
         std::vector<uint> numbers(batch);
         std::iota(numbers.begin(), numbers.end(), first + static_cast<uint>(contributions.size()));
