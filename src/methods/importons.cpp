@@ -17,7 +17,8 @@ ParameterSpec importons_spec()
         "Camera paths traced ahead to find where photons matter; elsewhere nine in ten are left out (Peter and Pietrek 1998). 0: all stay.",
         0,
         4e9,
-        {}};
+        {},
+        sizeof(Photon)};
 }
 
 std::unique_ptr<ImportanceMap> trace_importons(RenderContext& context, const Parameters& parameters, std::uint64_t& rays)

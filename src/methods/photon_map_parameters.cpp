@@ -30,7 +30,8 @@ PhotonLookup make_lookup(const Parameters& parameters, const std::string& radius
     const double by_density = 2.0 * static_cast<double>(scene_radius) * std::sqrt(photons / static_cast<double>(light_paths));
     const double by_count = lookup.nearest > 0 ? search_limit * by_density : std::min(by_density, largest);
     const double automatic = std::min(by_count, largest_automatic_radius(scene_radius));
-    lookup.radius = static_cast<float>(parameters.real(radius) > 0.0 ? parameters.real(radius) : automatic);
+    const double asked = asked_radius(parameters, radius, scene_radius);
+    lookup.radius = static_cast<float>(asked > 0.0 ? asked : automatic);
     lookup.usual_radius = std::min(lookup.radius, static_cast<float>(by_density));
     lookup.density_kernel = density_kernel(parameters);
     lookup.relaxed = parameters.integer("relaxation") > 0 || parameters.boolean("relaxation_progressive");
@@ -71,6 +72,7 @@ bool has_fresh_maps(const Parameters& parameters)
 ParameterSpec global_photons_spec()
 {
     ParameterSpec spec = photons_spec();
+    spec.device_bytes = 0.0; // light subpaths go in batches: what they leave counts (traced_photons.cpp)
     spec.description = fmt::format("Light subpaths of the global map; 0: one a pixel, at least {}.", least_paths);
     return spec;
 }
@@ -87,6 +89,7 @@ ParameterSpec global_radius_spec()
 ParameterSpec caustic_photons_spec()
 {
     ParameterSpec spec = photons_spec();
+    spec.device_bytes = 0.0; // light subpaths go in batches: what they leave counts (traced_photons.cpp)
     spec.name = "caustic_photons";
     spec.description = "Light subpaths of the caustic map; 0: four times those of the global map.";
     return spec;

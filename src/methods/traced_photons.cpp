@@ -1,9 +1,13 @@
 #include "methods/traced_photons.h"
 
 #include "base/atomic_file.h"
+#include "device/device.h"
+#include "device/memory_account.h"
 #include "methods/importons.h"
 #include "methods/photon_map_file.h"
 #include "methods/photon_map_parameters.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -61,8 +65,8 @@ PhotonTracerSettings of_a_batch(PhotonTracerSettings settings)
 
 } // namespace
 
-MapTracer::MapTracer(RenderContext& context, const PhotonTracerSettings& settings, uint map_number)
-    : context_(context), batches_(batch_count(settings)), settings_(of_a_batch(settings)), map_number_(map_number),
+MapTracer::MapTracer(RenderContext& context, const Parameters& parameters, const PhotonTracerSettings& settings, uint map_number)
+    : context_(context), parameters_(parameters), batches_(batch_count(settings)), settings_(of_a_batch(settings)), map_number_(map_number),
       tracer_(context.device, context.scene, settings_), deposits_(context.device, settings_.paths, "photon deposits")
 {
 }
@@ -79,17 +83,30 @@ TracedPhotons MapTracer::trace(PathPool& pool, std::uint64_t set, ImportanceMap*
         const std::vector<Photon> photons =
             importance ? importance->thin(tracer_.photons(), stored, key) : tracer_.photons().records().download(0, stored);
         traced.photons.insert(traced.photons.end(), photons.begin(), photons.end());
+        if (batch == 0) refuse_beyond_memory(photons.size());
     }
     traced.light_paths = light_paths();
     traced.rays = pool.rays_traced() - rays_before;
     return traced;
 }
 
+// Batches of the same map leave much the same number of photons.
+void MapTracer::refuse_beyond_memory(std::size_t photons_of_first_batch) const
+{
+    const double bytes = sizeof(Photon) * static_cast<double>(photons_of_first_batch) * static_cast<double>(batches_);
+    const double memory = static_cast<double>(context_.device.info().memory_bytes);
+    if (bytes <= memory || batches_ == 1) return;
+    const std::string name = settings_.kept == PhotonsKept::caustic ? "caustic_photons" : "photons";
+    parameters_.refuse(name, fmt::format("{}={} would leave some {} of photons on a device that has {}; give a smaller number", name,
+                                         parameters_.text(name), format_bytes(static_cast<std::uint64_t>(bytes)),
+                                         format_bytes(static_cast<std::uint64_t>(memory))));
+}
+
 MapPhotonTracer::MapPhotonTracer(RenderContext& context, const Parameters& parameters)
-    : context_(context), parameters_(parameters), global_(context, global_settings(context, parameters), 0)
+    : context_(context), parameters_(parameters), global_(context, parameters, global_settings(context, parameters), 0)
 {
     const PhotonTracerSettings settings = caustic_settings(context, parameters);
-    if (!settings.direct_light_elsewhere || context.scene.has_focused_light()) caustic_.emplace(context, settings, 1);
+    if (!settings.direct_light_elsewhere || context.scene.has_focused_light()) caustic_.emplace(context, parameters, settings, 1);
     pool_.emplace(context.device, context.scene, std::max(global_.batch_size(), caustic_ ? caustic_->batch_size() : 0));
 }
 

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "base/timer.h"
 #include "device/profile.h"
+#include "methods/memory_demand.h"
 #include "methods/render_context.h"
 #include "methods/standard_parameters.h"
 #include "render/checkpoint.h"
@@ -138,7 +139,7 @@ struct RenderSession::State {
           filter(make_pixel_filter(scene.film.filter)), film(make_film(device, scene.film, info, parameters, settings)),
           motion(device_scene, scene, camera, seed),
           spectral(device, device_scene, seed), context{device, device_scene, camera, filter, film, spectral, seed, [this] { return light_fingerprint(flatten_scene(scene)); }, settings.stop_requested},
-          method(info.create(context, parameters))
+          method(create_method(info, context, parameters))
     {
         warn_of_dispersion();
         warn_of_beams();
@@ -208,6 +209,10 @@ RenderIdentity RenderSession::State::identity()
 RenderProgress RenderSession::State::progress()
 {
     RenderProgress progress{device.info().name, iterations, seconds, resumed.stage_seconds};
+    if (!device.profile().tells_seconds()) {
+        progress.stage_seconds.clear();
+        return progress;
+    }
     for (const StageTime& stage : device.profile().stages()) {
         auto& sums = progress.stage_seconds;
         const auto known = std::find_if(sums.begin(), sums.end(), [&](const auto& sum) { return sum.first == stage.label; });

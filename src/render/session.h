@@ -42,7 +42,7 @@ struct RenderStatistics {
     MethodCounters counters;
     double render_seconds = 0.0; // wall time in iterate()
     double kernel_build_seconds = 0.0;
-    std::vector<std::pair<std::string, double>> stage_seconds; // label, device time
+    std::vector<std::pair<std::string, double>> stage_seconds; // label, device time; none where the driver's times are wrong
     std::uint64_t peak_device_bytes = 0;
     std::optional<RelativeError> error; // where it is estimated
     double error_confidence = 0.0; // of its bound

@@ -37,12 +37,16 @@ MarkovChains::MarkovChains(Device& device, const MarkovChainSettings& settings)
       propose_mutations_(device, "propose_mutations", "Propose mutations"), propose_seeds_(device, "propose_seeds", "Propose seeds"),
       count_used_numbers_(device, "count_used_numbers", "Count used numbers"), start_chains_(device, "start_chains", "Start chains"),
       accept_mutations_(device, "accept_mutations", "Accept mutations"), renumber_samples_(device, "renumber_samples", "Renumber samples"),
-      chains_(device, std::vector<MarkovChain>(settings.chains), "Markov chains"),
-      coordinates_(device, std::vector<uint>(settings.chains * 2 * stored_blocks_ * 4), "chain coordinates"),
+      chains_(device, settings.chains, "Markov chains"),
+      coordinates_(device, settings.chains * 2 * stored_blocks_ * 4, "chain coordinates"),
       seed_numbers_(device, settings.chains, "seed numbers"),
       weights_(device, settings.chains * (1 + std::size_t(settings.steps)), "sample weights"),
-      tallies_(device, std::vector<ChainTally>(settings.chains), "chain tallies")
+      tallies_(device, settings.chains, "chain tallies")
 {
+    // Once all are there: the host has no more memory than the device.
+    chains_.upload(std::vector<MarkovChain>(settings.chains));
+    coordinates_.fill(0u);
+    tallies_.upload(std::vector<ChainTally>(settings.chains));
     weights_.fill({0.0f, 0.0f});
 }
 
