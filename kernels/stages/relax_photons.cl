@@ -4,7 +4,8 @@
 // what evens out is noise. Structure stays as far as a photon's neighbours show it:
 // - where light grows to one side, the centroid c of the neighbours lies there. A linear gradient g has c = g r^2 / 4 and by
 //   the mean above pushes photons down by g r^2 / 12, so that sweeps would blur the light like heat; c / 3 more, and they
-//   feel no gradient;
+//   feel no gradient. In even light c is noise, r / (2 sqrt K) along either axis, and c / 3 would undo much of what a sweep
+//   is for: it counts from A_GRADIENT r on;
 // - where they lie to one side, as at the edge of a caustic or of a surface, it does not move to the other;
 // - where they lie along a line, it moves along that alone.
 // With -D EQUAL_FLUX=1 [Spencer and Jones 2013, ACM TOG 32(1), Progressive Photon Relaxation] neighbour k pushes with the weight
@@ -16,11 +17,16 @@
 #include "density/wanted_photons.h"
 #include "math/frame.h"
 #include "math/luminance.h"
+#include "shared/path.h"
 #include "shared/relaxation.h"
 
 // Neighbours whose centroid is further off than this, in r, lie to one side. In even light it is further than c with the
 // probability exp(-2 K c^2), 1 in 18: those photons are held back for a sweep.
 #define ONE_SIDED (1.2f * rsqrt((float)NEIGHBOURS))
+// A centroid that is nearer than this, in r, shows no gradient.
+#ifndef A_GRADIENT
+#define A_GRADIENT (0.5f * rsqrt((float)NEIGHBOURS))
+#endif
 // Their variances along both axes: below this ratio they lie along a line.
 #define ALONG_A_LINE 0.2f
 // Fewer than this show nothing.
@@ -151,7 +157,7 @@ static inline float2 displacement(const Neighbours* neighbours)
     }
     away /= (float)neighbours->count;
     centroid /= (float)neighbours->count;
-    away += centroid * (1.0f / 3.0f); // no force of a gradient
+    if (dot(centroid, centroid) > A_GRADIENT * A_GRADIENT * r * r) away += centroid * (1.0f / 3.0f); // no force of a gradient
     const float2 line = line_of(neighbours);
     if (line.x != 0.0f || line.y != 0.0f) away = line * dot(away, line);
     const float outwards = -dot(away, centroid);
@@ -165,13 +171,13 @@ __kernel void relax_photons(MAP_PARAMETERS, Relaxation relaxation, uint count, _
     if (index >= count) return;
     const PhotonMap map = MAP_VIEW;
     const Photon photon = photons[index];
-    const float3 normal = unpack_normal(photon.normal_depth);
+    const float3 normal = photon_normal(photon.normal_depth);
     const Frame frame = make_frame(normal);
     GatherQuery self;
     self.position = photon.position;
     self.normal = pack(normal);
     self.flags = 0u;
-    self.max_photon_depth = PHOTON_MAX_DEPTH;
+    self.max_photon_depth = UNBOUNDED_DEPTH;
     Neighbours neighbours;
     Neighbourhood near = {unpack(photon.position), unpack_direction(photon.direction), frame, &self, relaxation.least_cosine, 0.0f, &neighbours};
     for (float radius = fmin(relaxation.first_radius, relaxation.largest_radius);; radius = fmin(2.0f * radius, relaxation.largest_radius)) {

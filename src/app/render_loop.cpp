@@ -101,6 +101,11 @@ public:
         IterationsEnd end;
         try {
             iterate();
+        } catch (const Interrupted&) {
+            if (session_.iterations_done() == 0) {
+                progress_.clear();
+                throw;
+            }
         } catch (...) {
             if (session_.iterations_done() == 0) {
                 progress_.clear();

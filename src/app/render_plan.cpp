@@ -4,6 +4,7 @@
 #include "app/output_conflicts.h"
 #include "base/atomic_file.h"
 #include "base/errors.h"
+#include "base/interrupt.h"
 #include "film/image_io.h"
 #include "methods/method.h"
 
@@ -89,6 +90,7 @@ RenderPlan make_plan(const RenderOptions& options)
     if (options.texture_memory) plan.load.texture_bytes = parse_megabytes("--texture-memory", *options.texture_memory);
     plan.settings.method = options.method;
     plan.settings.parameters = parse_assignments("--param", options.parameters);
+    plan.settings.stop_requested = interrupt_requested;
     if (options.seed) plan.settings.seed = parse_count("--seed", *options.seed);
     if (!options.size.empty()) plan.settings.size = parse_size(options.size);
     if (!options.method.empty() && !find_method(options.method)) throw UsageError("unknown method \"" + options.method + "\"; sundog methods lists them");

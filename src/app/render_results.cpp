@@ -24,6 +24,7 @@ std::string joined(const std::vector<std::filesystem::path>& paths)
 void log_statistics(const RenderStatistics& statistics)
 {
     if (statistics.invalid_samples > 0) log_warning(fmt::format("{} invalid samples (NaN or infinite) were kept out of the image", statistics.invalid_samples));
+    if (statistics.stage_seconds.empty()) log_debug("seconds of stages: not known, the driver's times do not agree with the clock");
     for (const auto& [stage, seconds] : statistics.stage_seconds) log_debug(fmt::format("{:8.3f} s  {}", seconds, stage));
     log_debug(fmt::format("kernels ready in {:.2f} s, peak device memory {:.1f} MB", statistics.kernel_build_seconds,
                           static_cast<double>(statistics.peak_device_bytes) * 1e-6));

@@ -1,7 +1,15 @@
 // Ctrl-C and other signals that end a process: stop in order, with what was done saved.
 #pragma once
 
+#include "base/errors.h"
+
 namespace sundog {
+
+// The render was asked to stop in the middle of an iteration, and did.
+class Interrupted : public Error {
+public:
+    Interrupted() : Error(ExitStatus::interrupted, "interrupted before the first iteration was done: there is no image to save") {}
+};
 
 // SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is gone), SIGPIPE (nobody reads what is printed) and SIGXFSZ (a file
 // reached the limit of its size). Until defer_interrupts(), each ends the process at once with status 130: nothing has been
