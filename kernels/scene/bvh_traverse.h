@@ -209,7 +209,11 @@ static inline bool traverse_bvh(GEOMETRY_POINTERS, Ray ray, bool any, Hit* hit)
 
     BvhVisit stack[BVH_STACK_SIZE];
     int depth = 0;
+#ifdef HIDE_EMITTERS
+    int node = ray.horizon == RAY_FROM_LENS ? bvh_nodes[globals->bvh_root].child[0] : globals->bvh_root;
+#else
     int node = globals->bvh_root;
+#endif
     bool found = false;
 #ifdef HAS_INSTANCES
     const PreparedRay in_world = current;

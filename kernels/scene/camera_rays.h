@@ -11,6 +11,13 @@
 #define CAMERA_KIND camera->kind
 #endif
 
+// What lens and camera see each other by passes lights that are hidden (-D HIDE_EMITTERS).
+#ifdef HIDE_EMITTERS
+#define HORIZON_OF_LENS RAY_FROM_LENS
+#else
+#define HORIZON_OF_LENS 0u
+#endif
+
 // Paths are numbered by tiles of the crop, so that neighbours in the list are neighbours in the image.
 #define TILE_SIZE 8u
 
@@ -111,7 +118,7 @@ static inline Ray camera_ray(const Camera* camera, float2 film, float2 lens)
     ray.origin = pack(unpack(camera->position) + camera_to_world(camera, origin) + world * (camera->near_clip * length_per_z));
     ray.direction = pack(world);
     ray.t_max = (camera->far_clip - camera->near_clip) * length_per_z;
-    ray.horizon = 0u;
+    ray.horizon = HORIZON_OF_LENS;
     return ray;
 }
 

@@ -39,6 +39,10 @@ static inline bool extend_camera_path(const Surface* surface, const Scattering* 
     separate_wavelengths(scattering, sample.direction, path);
     *ray = ray_from(surface, sample.direction);
     ray->horizon = lobe_horizon(scattering);
+#ifdef HIDE_EMITTERS
+    if (sample.pdf_w != PDF_DELTA || any(sample.direction != -surface->outgoing)) path->flags |= PATH_TURNED;
+    if (!(path->flags & PATH_TURNED)) ray->horizon = RAY_FROM_LENS;
+#endif
     return true;
 }
 

@@ -15,9 +15,20 @@ static inline float emission_weight(const PathState* path, float light_pdf)
     return path->pdf_w == PDF_DELTA ? 1.0f : balance_heuristic(path->pdf_w, light_pdf);
 }
 
+// Whether a ray that leads straight from the lens passes what shines.
+static inline bool sees_no_light(Ray ray)
+{
+#ifdef HIDE_EMITTERS
+    return ray.horizon == RAY_FROM_LENS;
+#else
+    return false;
+#endif
+}
+
 // Radiance of the environment where a path leaves the scene along `ray`; with `mis`, weighted as above.
 static inline float3 found_environment(const SurfaceView* scene, const PathState* path, Ray ray, bool mis)
 {
+    if (sees_no_light(ray)) return (float3)(0.0f);
     const EnvironmentValue value = environment_value(scene, normalize(unpack(ray.direction)));
     return is_black(value.radiance) ? value.radiance : value.radiance * (mis ? emission_weight(path, value.pdf_w) : 1.0f);
 }

@@ -24,7 +24,8 @@ static inline float3 fresnel_conductor(float cos_i, float3 eta, float3 k)
     const float cos2 = cos_i * cos_i;
     const float sin2 = 1.0f - cos2;
     const float3 difference = eta * eta - k * k - sin2;
-    const float3 a2_plus_b2 = sqrt(difference * difference + 4.0f * eta * eta * k * k);
+    // Where eta and k are both 0 the quotients below stay 1.
+    const float3 a2_plus_b2 = fmax(sqrt(difference * difference + 4.0f * eta * eta * k * k), 1e-20f);
     const float3 a = sqrt(fmax(0.5f * (a2_plus_b2 + difference), (float3)(0.0f)));
     const float3 perpendicular_sum = a2_plus_b2 + cos2;
     const float3 perpendicular_cross = 2.0f * cos_i * a;

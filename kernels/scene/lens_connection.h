@@ -13,14 +13,25 @@ typedef struct LensConnection {
     float pdf_a;      // 1/m^2, with which a camera subpath of that pixel meets the surface there
 } LensConnection;
 
+// Whether the lens passes a surface, because it belongs to a light that is hidden.
+static inline bool is_hidden(const SurfaceView* scene, const Surface* surface)
+{
+#ifdef HIDE_EMITTERS
+    return scene->shapes[surface->shape].first_light != NO_LIGHT;
+#else
+    return false;
+#endif
+}
+
 // flux: of the light subpath, W. u: lens and pixel filter.
-static inline LensConnection connect_to_lens(const Camera* camera, __global const PixelFilter* filter, const Surface* surface,
+static inline LensConnection connect_to_lens(const SurfaceView* scene, const Camera* camera, __global const PixelFilter* filter, const Surface* surface,
                                              const Scattering* scattering, float3 flux, float4 u)
 {
     LensConnection result;
     result.splat.radiance = pack((float3)(0.0f));
     result.splat.pixel = 0u;
     result.shadow_ray = no_ray();
+    if (is_hidden(scene, surface)) return result;
     const CameraConnection connection = connect_to_camera(camera, surface->position, u.xy);
     if (!connection.visible) return result;
     const float3 to_lens = connection.lens - surface->position;
@@ -40,6 +51,7 @@ static inline LensConnection connect_to_lens(const Camera* camera, __global cons
     const float3 origin = ray_origin(surface, result.direction);
     result.shadow_ray.origin = pack(origin);
     result.shadow_ray.direction = pack(connection.lens - origin);
+    result.shadow_ray.horizon = HORIZON_OF_LENS;
     // Surfaces nearer to the lens than the near plane do not hide anything.
     result.shadow_ray.t_max = 1.0f + camera->near_clip / dot(to_lens, unpack(camera->axis_z));
     return result;

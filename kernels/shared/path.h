@@ -28,6 +28,8 @@ SHARED_SIZE(PathState, 32);
 #define PATH_SCATTERED_BROADLY 8u
 // A camera path with two vertices in a row, the lens one of them, that light subpaths can be connected between.
 #define PATH_CONNECTABLE 16u
+// A camera path that some surface has turned: where it does not go straight on, hidden lights are seen again.
+#define PATH_TURNED 32u
 
 // max_depth: most edges of a whole path from light to camera, UNBOUNDED_DEPTH for no bound.
 // rr_depth: Russian roulette starts at this vertex.

@@ -10,9 +10,13 @@ typedef struct Ray {
     Vec3 origin;
     float t_max;
     Vec3 direction;
-    uint horizon; // of the surface that it leaves (kernels/scene/horizon.h), where lights are chosen by a tree; else 0
+    uint horizon; // of the surface that it leaves (kernels/scene/horizon.h), where lights are chosen by a tree; RAY_FROM_LENS; else 0
 } Ray;
 SHARED_SIZE(Ray, 32);
+
+// As a horizon, of programs built with HIDE_EMITTERS: the ray leads straight from the lens or to it, and sees no light. Its
+// traversal starts below the root, at the first child, under which there is all but the lights.
+#define RAY_FROM_LENS 1u
 
 #define NO_PRIMITIVE 0xffffffffu
 #define ANALYTIC_BIT 0x80000000u

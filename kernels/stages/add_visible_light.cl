@@ -1,7 +1,6 @@
 // Adds the emission that the camera sees directly: paths of one edge, which a light path cannot connect.
 // Reads first hits; updates radiance. One work-item a camera path. Used by ptracer.
-#include "scene/lights.h"
-#include "shared/path.h"
+#include "scene/direct_light.h"
 
 __kernel void add_visible_light(SURFACE_PARAMETERS, uint count, __global const Ray* restrict rays, __global const Hit* restrict hits,
                                 __global const PathState* restrict paths, __global Vec3* restrict radiance)
@@ -13,7 +12,7 @@ __kernel void add_visible_light(SURFACE_PARAMETERS, uint count, __global const R
     if (hits[path].primitive != NO_PRIMITIVE) {
         const Surface surface = surface_at(&scene, rays[path], hits[path]);
         emitted = emitted_radiance(&scene, &surface, light_of_hit(&scene, &surface));
-    } else {
+    } else if (!sees_no_light(rays[path])) {
         emitted = environment_value(&scene, normalize(unpack(rays[path].direction))).radiance;
     }
     radiance[path] = pack(unpack(radiance[path]) + unpack(paths[path].throughput) * emitted);

@@ -36,6 +36,7 @@ static inline float3 weighted_emission(const SurfaceView* scene, const Surface* 
 // The same where it left the scene.
 static inline float3 weighted_environment(const SurfaceView* scene, const PathState* path, PathWeights weights, Ray ray)
 {
+    if (sees_no_light(ray)) return (float3)(0.0f);
     const EnvironmentValue value = environment_value(scene, normalize(unpack(ray.direction)));
     if (is_black(value.radiance) || path->depth == 1u) return value.radiance;
     // Light subpaths choose lights by power alone.
@@ -116,7 +117,7 @@ __kernel void shade_camera_subpath(SURFACE_PARAMETERS, Camera camera, SAMPLER_PA
     }
     Ray next;
     if (continue_camera_path(&surface, &scattering, rules, &sampler, &path, &next)) {
-        next.horizon = 0u; // the chance of a light must be the same in all weights
+        if (!sees_no_light(next)) next.horizon = 0u; // the chance of a light must be the same in all weights
         subpaths[index].weights = weights_along(weights, here, &surface, &scattering, path.pdf_w, unpack(next.direction));
         rays[index] = next;
         paths[index] = path;

@@ -75,7 +75,7 @@ __kernel void shade_light_subpath(SURFACE_PARAMETERS, Camera camera, __global co
         links[slot] = link;
         last_vertices[index] = slot;
 
-        LensConnection connection = connect_to_lens(&camera, filter, &surface, &scattering, flux, u);
+        LensConnection connection = connect_to_lens(&scene, &camera, filter, &surface, &scattering, flux, u);
         if (connection.shadow_ray.t_max > 0.0f) {
             const float weight = splat_weight(&connection, &surface, &scattering, subpath.weights, techniques);
             connection.splat.radiance = pack(unpack(connection.splat.radiance) * weight);

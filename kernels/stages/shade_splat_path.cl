@@ -25,7 +25,7 @@ __kernel void shade_splat_path(SURFACE_PARAMETERS, Camera camera, __global const
     Scattering scattering = scattering_at(&scene, &surface, next_4d(&sampler).x);
     disperse(light_hero(&scene, key, index), &path, &scattering);
     if (!is_specular(&scattering) && !is_black_side(&scattering)) {
-        const LensConnection connection = connect_to_lens(&camera, filter, &surface, &scattering, unpack(path.throughput), u);
+        const LensConnection connection = connect_to_lens(&scene, &camera, filter, &surface, &scattering, unpack(path.throughput), u);
         deposits[item] = connection.splat;
         shadow_rays[index] = connection.shadow_ray;
     }

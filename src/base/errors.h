@@ -2,6 +2,8 @@
 // in main alone, and each carries the exit status of the command line's contract.
 #pragma once
 
+#include "base/printable.h"
+
 #include <stdexcept>
 #include <string>
 
@@ -30,10 +32,14 @@ struct SourceLocation {
     }
 };
 
-// The message says what is wrong and what to do, in one line.
+// The message says what is wrong and what to do, in one line; names in it are made printable. (After the first line of a
+// DeviceError a build log may follow.)
 class Error : public std::runtime_error {
 public:
-    Error(ExitStatus status, const std::string& message) : std::runtime_error(message), status_(status) {}
+    Error(ExitStatus status, const std::string& message)
+        : std::runtime_error(status == ExitStatus::device ? printable_lines(message) : printable(message)), status_(status)
+    {
+    }
     ExitStatus status() const { return status_; }
 
 private:

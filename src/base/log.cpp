@@ -1,5 +1,7 @@
 #include "base/log.h"
 
+#include "base/printable.h"
+
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -48,7 +50,7 @@ void print(spdlog::level::level_enum level, std::string_view kind, std::string_v
     if (!logger().should_log(level)) return;
     std::lock_guard lock(before_line().mutex);
     if (before_line().action) before_line().action();
-    logger().log(level, "{}{}", kind, message);
+    logger().log(level, "{}{}", kind, level == spdlog::level::debug ? printable_lines(message) : printable(message));
 }
 
 } // namespace

@@ -1,9 +1,10 @@
 // What an importer says of a scene that it can render all the same.
 #pragma once
 
+#include "base/printable.h"
+
 #include <ostream>
 #include <string>
-#include <utility>
 
 namespace sundog {
 
@@ -18,7 +19,7 @@ struct Warning {
     std::string text; // one line, "FILE:LINE: ..."
     WarningKind kind = WarningKind::note;
 
-    Warning(std::string line, WarningKind of = WarningKind::note) : text(std::move(line)), kind(of) {}
+    Warning(std::string line, WarningKind of = WarningKind::note) : text(printable(line)), kind(of) {}
     operator const std::string&() const { return text; }
 };
 

@@ -1,5 +1,6 @@
 #include "import/bsdf_import.h"
 
+#include "import/limits.h"
 #include "import/principled_import.h"
 #include "import/text_file.h"
 #include "scene/materials.h"
@@ -17,7 +18,8 @@ namespace
 constexpr const char* supported_bsdfs = "diffuse, dielectric, roughdielectric, thindielectric, conductor, roughconductor, plastic, "
                                         "roughplastic, principled, phong, coating, roughcoating, mask, blendbsdf, mixturebsdf, normalmap, bumpmap, twosided, null";
 constexpr uint max_nesting = 6; // of masks and blends: the device has room for a few more
-constexpr double max_alpha = 1.0;
+constexpr double max_alpha = 100.0; // facets are all but upright beyond
+constexpr double largest_bump_scale = 1e9; // the square of a slope stays finite
 constexpr double max_exponent = 1e5; // beyond it single precision has no digits for the lobe
 
 // BSDFs of Mitsuba that are refused, and what comes near them.
@@ -151,6 +153,7 @@ DielectricBsdf BsdfImporter::read_dielectric(ObjectReader& reader, bool thin)
         bsdf.int_ior = reader.ior("int_ior", "bk7");
     }
     bsdf.ext_ior = reader.ior("ext_ior", "air");
+    check_relative_index(bsdf.int_ior / bsdf.ext_ior, reader.where_of(reader.has("int_ior") ? "int_ior" : "ext_ior"));
     bsdf.specular_reflectance = reflectance(reader, "specular_reflectance", {1, 1, 1});
     bsdf.specular_transmittance = reflectance(reader, "specular_transmittance", {1, 1, 1});
     return bsdf;
@@ -181,6 +184,9 @@ ConductorBsdf BsdfImporter::read_conductor(ObjectReader& reader)
         bsdf.eta = bsdf.eta / exterior;
         bsdf.k = bsdf.k / exterior;
     }
+    for (const auto& [name, index] : {std::pair("eta", bsdf.eta), std::pair("k", bsdf.k)})
+        if (!(max_component(index) <= largest_complex_index))
+            throw SceneError(reader.where_of(name), "'" + std::string(name) + "' of a conductor over the index outside must be at most 1e8");
     bsdf.specular_reflectance = reflectance(reader, "specular_reflectance", {1, 1, 1});
     return bsdf;
 }
@@ -212,6 +218,7 @@ PlasticBsdf BsdfImporter::read_plastic(ObjectReader& reader, bool rough)
     PlasticBsdf bsdf;
     bsdf.int_ior = reader.ior("int_ior", "polypropylene");
     bsdf.ext_ior = reader.ior("ext_ior", "air");
+    check_relative_index(bsdf.int_ior / bsdf.ext_ior, reader.where_of(reader.has("int_ior") ? "int_ior" : "ext_ior"));
     bsdf.diffuse_reflectance = reflectance(reader, "diffuse_reflectance", {0.5f, 0.5f, 0.5f});
     bsdf.specular_reflectance = reflectance(reader, "specular_reflectance", {1, 1, 1});
     bsdf.nonlinear = reader.boolean("nonlinear", false);
@@ -318,7 +325,7 @@ BumpMapBsdf BsdfImporter::read_bump_map(ObjectReader& reader)
     BumpMapBsdf map;
     const auto texture = textures_.nested(reader);
     if (!texture) throw SceneError(reader.where(), "a bumpmap needs a <texture> inside");
-    const float scale = static_cast<float>(reader.number("scale", 1.0)) * luminance(texture->value);
+    const float scale = static_cast<float>(reader.number_between("scale", 1.0, -largest_bump_scale, largest_bump_scale)) * luminance(texture->value);
     map.heights = texture->texture ? NumberSource(scale, *texture->texture) : NumberSource(0.0f);
     read_relief(reader, map);
     return map;

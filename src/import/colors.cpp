@@ -1,6 +1,6 @@
 #include "import/colors.h"
 
-#include "import/object_reader.h"
+#include "import/limits.h"
 #include "import/spectrum_samples.h"
 #include "import/text_file.h"
 #include "import/values.h"
@@ -163,6 +163,8 @@ Vec3 read_spectrum(const XmlElement& element, const SceneIndex& index, ColorRole
         if (role != ColorRole::emission || index.legacy()) return gray(number);
         return linear_srgb_from_xyz(number, number, number);
     }
+    // Red, green and blue, as in Mitsuba 0.6 where it was built for RGB.
+    if (words.size() == 3 && value->find(':') == std::string::npos) return read_rgb(element);
     return reduce(parse_spectrum_pairs(element, words), role);
 }
 
@@ -191,6 +193,7 @@ Vec3 read_color(const XmlElement& element, const SceneIndex& index, ColorRole ro
     const bool negative = color.x < 0 || color.y < 0 || color.z < 0;
     if (role != ColorRole::reflectance) {
         if (negative) throw SceneError(element.where, "'" + name + "' must not be negative");
+        if (role == ColorRole::emission) check_emission(color, element.where, name);
         return color;
     }
     if (negative || max_component(color) > 1.0f) {

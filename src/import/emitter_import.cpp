@@ -1,8 +1,10 @@
 #include "import/emitter_import.h"
 
 #include "import/bitmap.h"
+#include "import/limits.h"
 #include "import/sensor_import.h"
 #include "import/sky_import.h"
+#include "import/text_file.h"
 #include "math/direction.h"
 
 #include <numbers>
@@ -18,6 +20,10 @@ constexpr float degree = std::numbers::pi_v<float> / 180.0f;
 
 void ignore_sampling_weight(ObjectReader& reader)
 {
+    const XmlElement* weight = reader.find("sampling_weight");
+    if (weight && weight->attribute("value") && parse_number(*weight->attribute("value")) == 0.0)
+        reader.index().warn(weight->where, "the light shines all the same: a sampling_weight of 0 does not switch it off here",
+                            WarningKind::approximated);
     reader.ignore("sampling_weight", "lights are chosen by their power");
 }
 
@@ -28,6 +34,7 @@ PointEmitter read_point(ObjectReader& reader)
         throw SceneError(reader.where_of("to_world"), "give a point emitter either position or to_world, not both");
     const Transform to_world = reader.transform("to_world");
     emitter.position = reader.vector("position").value_or(to_world.point({0, 0, 0}));
+    check_position(emitter.position, reader.where_of(reader.has("position") ? "position" : "to_world"), "the light");
     emitter.intensity = reader.color("intensity", {1, 1, 1}, ColorRole::emission);
     return emitter;
 }
@@ -47,12 +54,13 @@ ProjectorEmitter read_projector(ObjectReader& reader, TextureImporter& textures)
     const Transform to_world = reader.transform("to_world");
     set_axes(to_world, reader.where_of("to_world"), emitter.axis_x, emitter.axis_y, emitter.axis_z);
     emitter.position = to_world.point({0, 0, 0});
+    check_position(emitter.position, reader.where_of("to_world"), "the light");
     const ColorSource image = textures.color(reader, "irradiance", {1, 1, 1}, ColorRole::emission);
     emitter.texture = image.texture;
-    const double scale = reader.number("scale", 1.0);
-    if (!(scale >= 0.0)) throw SceneError(reader.where_of("scale"), "scale of a projector must be >= 0");
+    const double scale = reader.number_between("scale", 1.0, 0.0, largest_emission);
     // Mitsuba's irradiance is in units of pi.
     emitter.irradiance = image.value * static_cast<float>(scale * std::numbers::pi);
+    check_emission(emitter.irradiance, reader.where_of("scale"), "scale");
     const double aspect = image.texture ? textures.aspect(*image.texture) : 1.0;
     emitter.half_width = static_cast<float>(read_tan_half_x(reader, aspect));
     emitter.half_height = static_cast<float>(emitter.half_width / aspect);
@@ -64,6 +72,7 @@ SpotEmitter read_spot(ObjectReader& reader, TextureImporter& textures)
     SpotEmitter emitter;
     const Transform to_world = reader.transform("to_world");
     emitter.position = to_world.point({0, 0, 0});
+    check_position(emitter.position, reader.where_of("to_world"), "the light");
     emitter.direction = direction_of(to_world.vector({0, 0, 1}));
     emitter.intensity = reader.color("intensity", {1, 1, 1}, ColorRole::emission);
     const ColorSource texture = textures.color(reader, "texture", {1, 1, 1}, ColorRole::emission);
@@ -71,9 +80,10 @@ SpotEmitter read_spot(ObjectReader& reader, TextureImporter& textures)
     emitter.intensity = emitter.intensity * texture.value;
     if (emitter.texture) set_axes(to_world, reader.where_of("to_world"), emitter.axis_x, emitter.axis_y, emitter.direction);
     const double cutoff = reader.number("cutoff_angle", 20.0);
+    constexpr double narrowest = 1e-3; // degrees: of a narrower cone the cosine is 1
     const double beam = reader.number("beam_width", 0.75 * cutoff);
-    if (!(cutoff > 0.0 && cutoff < 180.0))
-        throw SceneError(reader.where_of("cutoff_angle"), "cutoff_angle of a spot must be in (0, 180) degrees");
+    if (!(cutoff >= narrowest && cutoff < 180.0))
+        throw SceneError(reader.where_of("cutoff_angle"), "cutoff_angle of a spot must be at least 0.001 and below 180 degrees");
     if (!(beam >= 0.0 && beam <= cutoff))
         throw SceneError(reader.where_of("beam_width"), "beam_width of a spot must be between 0 and its cutoff_angle");
     if (emitter.texture && !(cutoff < 90.0))
@@ -101,6 +111,7 @@ CollimatedEmitter read_collimated(ObjectReader& reader)
     CollimatedEmitter emitter;
     const Transform to_world = reader.transform("to_world");
     emitter.position = to_world.point({0, 0, 0});
+    check_position(emitter.position, reader.where_of("to_world"), "the light");
     emitter.direction = direction_of(to_world.vector({0, 0, 1}));
     emitter.power = reader.color("power", {1, 1, 1}, ColorRole::emission);
     return emitter;
@@ -117,8 +128,7 @@ EnvironmentEmitter read_environment(ObjectReader& reader)
     bool cleaned = false;
     emitter.image = std::make_shared<const TexelImage>(load_environment(file, where, cleaned));
     if (cleaned) reader.index().warn(where, "values of '" + file.string() + "' that are negative or not finite count as 0", WarningKind::approximated);
-    emitter.scale = static_cast<float>(reader.number("scale", 1.0));
-    if (!(emitter.scale >= 0.0f)) throw SceneError(reader.where_of("scale"), "scale of an envmap must be >= 0");
+    emitter.scale = static_cast<float>(reader.number_between("scale", 1.0, 0.0, largest_emission));
     const Transform to_world = reader.transform("to_world");
     set_axes(to_world, reader.where_of("to_world"), emitter.axis_x, emitter.axis_y, emitter.axis_z);
     for (const char* name : {"mis_compensation", "cache"}) reader.ignore(name, "it does not change the image");

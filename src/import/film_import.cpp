@@ -25,8 +25,8 @@ ReconstructionFilter read_filter(ObjectReader& reader)
         filter.radius = 4.0f * filter.stddev;
     } else if (type == "mitchell") {
         filter.kind = FilterKind::mitchell;
-        filter.b = static_cast<float>(reader.number("b", 1.0 / 3.0));
-        filter.c = static_cast<float>(reader.number("c", 1.0 / 3.0));
+        filter.b = static_cast<float>(reader.number_between("b", 1.0 / 3.0, -10.0, 10.0));
+        filter.c = static_cast<float>(reader.number_between("c", 1.0 / 3.0, -10.0, 10.0));
     } else if (type == "catmullrom") {
         filter.kind = FilterKind::mitchell; // of which it is the case B = 0, C = 1/2
         filter.b = 0.0f;
@@ -38,7 +38,8 @@ ReconstructionFilter read_filter(ObjectReader& reader)
     } else {
         reader.unsupported("box, tent, gaussian, mitchell, catmullrom, lanczos");
     }
-    if (filter.radius > 32.0f) throw SceneError(reader.where(), "the radius of a reconstruction filter must be at most 32 pixels");
+    if (!(filter.radius >= 1e-3f && filter.radius <= 32.0f))
+        throw SceneError(reader.where(), "the radius of a reconstruction filter must be between 0.001 and 32 pixels");
     reader.finish();
     return filter;
 }
@@ -112,7 +113,7 @@ Film import_film(ObjectReader& reader)
     // Samples always come from beyond the border too, which is what true asks for.
     if (!reader.boolean("sample_border", true))
         reader.index().warn(reader.where_of("sample_border"),
-                            "sample_border is taken as true: pixels at the border get samples from both of its sides");
+                            "sample_border is taken as true: pixels at the border get samples from both of its sides", WarningKind::approximated);
     for (const char* name : {"file_format", "pixel_format", "component_format", "banner", "attach_log", "high_quality_edges", "compensate",
                              "label_font", "gamma", "exposure", "tonemap_method", "key", "burn", "digits", "variable"})
         reader.ignore(name, "how the image is written is chosen on the command line");

@@ -15,6 +15,23 @@ namespace sundog
 namespace
 {
 
+// An area emitter beside the shapes, which take it by <ref>.
+bool is_declared_for_shapes(const XmlElement& emitter, const SceneIndex& index)
+{
+    const std::string* type = emitter.attribute("type");
+    return type && *type == "area" && index.is_referenced(emitter);
+}
+
+// Samplers, films and filters may stand in the scene for sensors and films to refer to.
+void declare_parts_of_sensors(ObjectReader& root)
+{
+    for (const char* tag : {"sampler", "film", "rfilter"})
+        for (const NestedObject& part : root.nested(tag))
+            if (!root.index().is_referenced(*part.object))
+                root.index().warn(part.where, ObjectReader(*part.object, root.index()).describe() + " is ignored: no sensor contains it or refers to it",
+                                  WarningKind::ignored);
+}
+
 void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
 {
     ObjectReader root(xml.root, index);
@@ -24,8 +41,6 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
     if (sensors.size() > 1) index.warn(sensors[1].where, "the scene has several sensors; only the first is rendered", WarningKind::ignored);
     import_sensor(*sensors.front().object, index, scene);
 
-    if (const auto integrator = root.single("integrator")) import_integrator(*integrator->object, index, scene.integrator);
-
     TextureImporter textures(index, scene.textures);
     BsdfImporter bsdfs(index, textures, scene.bsdfs);
     InstanceImporter instances(index, bsdfs, textures, scene);
@@ -33,10 +48,14 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
         if (!instances.import(*shape.object)) import_shape(*shape.object, index, bsdfs, textures, scene);
     instances.finish();
     for (const auto& emitter : root.nested("emitter"))
-        if (auto imported = import_emitter(*emitter.object, index, textures)) scene.emitters.push_back(std::move(*imported));
+        if (!is_declared_for_shapes(*emitter.object, index))
+            if (auto imported = import_emitter(*emitter.object, index, textures)) scene.emitters.push_back(std::move(*imported));
+    if (const auto integrator = chosen_integrator(root))
+        import_integrator(*integrator->object, index, scene.bounds().radius(), scene.integrator);
 
     // Declared for those who refer to them, who complain about what they cannot use.
     for (const char* tag : {"bsdf", "texture", "medium", "volume", "phase"}) root.nested(tag);
+    declare_parts_of_sensors(root);
     root.finish();
 }
 

@@ -1,9 +1,7 @@
 // Scenes in Mitsuba's XML: the 3.x schema, and 0.6's names (camelCase, <lookAt>, <srgb>, ...) beside it.
 //
-// Supported: sensors perspective and thinlens; hdrfilm with box, tent, gaussian, mitchell and catmullrom filters and
-// crop; shapes obj, ply, serialized, rectangle, cube, sphere, disk and cylinder; BSDFs diffuse, dielectric, thindielectric, conductor,
-// twosided and null; emitters area, point, spot, directional and constant; rgb, srgb, spectrum and blackbody colours;
-// default, $name, include, path, ref and alias. The integrator is kept as text for the method that it names.
+// What is supported is listed in README.md and docs/mitsuba.md. Any object may stand at the level of the scene for others to
+// refer to. The integrator is kept as text for the method that it names.
 //
 // Files: a scene may refer to any file by an absolute path or one with .. in it, as users' scenes do; a file's content is
 // never shown but as the word that a message quotes. Only regular files are opened, of bounded size, and neither cyclic
@@ -30,12 +28,12 @@ struct LoadOptions {
 
 struct LoadedScene {
     Scene scene;
-    std::vector<Warning> warnings; // in the order of the file: what was ignored, clamped or dropped
+    std::vector<Warning> warnings; // sensor, shapes, lights, integrator: what was ignored, clamped or dropped
 };
 
 // Throws SceneError, with file and line, for a file that cannot be read (meshes and includes too), is malformed, asks
 // for a plugin or parameter that would change the image and is not supported, or describes nothing that can be
-// rendered (no sensor, no shape, no light, values out of range). Throws UsageError for a define of an unknown name.
+// rendered (no sensor, no light, values out of range). Throws UsageError for a define of an unknown name.
 LoadedScene load_scene(const std::filesystem::path& file, const LoadOptions& options);
 
 } // namespace sundog

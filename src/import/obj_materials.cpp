@@ -65,7 +65,7 @@ void append_materials(const std::filesystem::path& obj_file, std::string_view na
         try {
             append_library(file, result);
         } catch (const SceneError& error) {
-            result.warnings.emplace_back(std::string("material library: ") + error.what(), WarningKind::ignored);
+            result.warnings.emplace_back(std::string("material library: ") + error.what(), WarningKind::approximated);
         }
     }
 }

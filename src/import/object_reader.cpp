@@ -1,5 +1,6 @@
 #include "import/object_reader.h"
 
+#include "import/number_text.h"
 #include "import/text_file.h"
 #include "import/values.h"
 #include "scene/materials.h"
@@ -39,6 +40,7 @@ ObjectReader::ObjectReader(const XmlElement& element, const SceneIndex& index) :
 {
     std::set<std::string> names;
     for (const auto& child : element.children) {
+        if (child.attribute("name")) by_name_.emplace(child.parameter_name(), &child);
         if (child.tag == "alias") {
             used_.insert(&child);
             continue;
@@ -66,9 +68,8 @@ std::string ObjectReader::describe() const
 
 const XmlElement* ObjectReader::find(std::string_view name) const
 {
-    for (const auto& child : element_.children)
-        if (child.attribute("name") && child.parameter_name() == name) return &child;
-    return nullptr;
+    const auto found = by_name_.find(name);
+    return found == by_name_.end() ? nullptr : found->second;
 }
 
 const XmlElement* ObjectReader::take(std::string_view name, std::initializer_list<std::string_view> tags)
@@ -107,6 +108,15 @@ double ObjectReader::positive(std::string_view name, double fallback)
     if (!(static_cast<float>(value) > 0.0f))
         throw SceneError(where_of(name),
                          "'" + std::string(name) + "' of " + describe() + " must be > 0, got " + *find(name)->attribute("value"));
+    return value;
+}
+
+double ObjectReader::number_between(std::string_view name, double fallback, double least, double most)
+{
+    const double value = number(name, fallback);
+    if (!(value >= least && value <= most))
+        throw SceneError(where_of(name), "'" + std::string(name) + "' of " + describe() + " must be between " + number_text(least) + " and " +
+                                             number_text(most) + ", got " + number_text(value));
     return value;
 }
 

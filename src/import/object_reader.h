@@ -6,6 +6,7 @@
 #include "import/scene_index.h"
 #include "math/animated_transform.h"
 
+#include <map>
 #include <optional>
 #include <set>
 
@@ -35,6 +36,7 @@ public:
     SourceLocation where_of(std::string_view name) const; // the object's own without the parameter
     double number(std::string_view name, double fallback);
     double positive(std::string_view name, double fallback); // > 0
+    double number_between(std::string_view name, double fallback, double least, double most);
     int integer(std::string_view name, int fallback);
     bool boolean(std::string_view name, bool fallback);
     std::string text(std::string_view name, const std::string& fallback); // throws without a value and fallback ""
@@ -73,6 +75,7 @@ private:
 
     const XmlElement& element_;
     const SceneIndex& index_;
+    std::map<std::string, const XmlElement*, std::less<>> by_name_; // the first of each name
     std::set<const XmlElement*> used_;
     std::optional<Transform> placed_;
 };

@@ -1,5 +1,7 @@
 #include "import/principled_import.h"
 
+#include "import/limits.h"
+
 #include <cmath>
 
 namespace sundog
@@ -23,6 +25,7 @@ float read_index(ObjectReader& reader, bool transmits)
         throw SceneError(reader.where_of("specular"), "give a principled bsdf either eta or specular, not both");
     if (reader.has("eta")) {
         const float eta = static_cast<float>(reader.positive("eta", 1.5));
+        check_relative_index(eta, reader.where_of("eta"));
         return transmits && eta == 1.0f ? 1.001f : eta;
     }
     const double specular = reader.number("specular", 0.5);

@@ -6,6 +6,13 @@
 namespace sundog
 {
 
+namespace
+{
+
+constexpr int max_aliases = 64; // one after another
+
+} // namespace
+
 bool is_object_tag(std::string_view tag)
 {
     constexpr std::array<std::string_view, 14> tags = {"scene", "sensor",  "film",    "rfilter", "sampler", "integrator", "shape",
@@ -16,7 +23,9 @@ bool is_object_tag(std::string_view tag)
 SceneIndex::SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings, bool allow_missing)
     : scene_(scene), warnings_(warnings), allow_missing_(allow_missing)
 {
-    collect(scene.root);
+    std::set<std::string> referenced_ids;
+    collect(scene.root, referenced_ids);
+    for (const std::string& id : referenced_ids) referenced_.insert(find(id));
 }
 
 void SceneIndex::missing(const SourceLocation& where, const std::string& what, const std::string& details, const std::string& stand_in) const
@@ -25,7 +34,7 @@ void SceneIndex::missing(const SourceLocation& where, const std::string& what, c
     warn(where, what + " is not supported: " + stand_in, WarningKind::approximated);
 }
 
-void SceneIndex::collect(const XmlElement& element)
+void SceneIndex::collect(const XmlElement& element, std::set<std::string>& referenced_ids)
 {
     for (const auto& child : element.children) {
         if (child.tag == "alias") {
@@ -34,8 +43,10 @@ void SceneIndex::collect(const XmlElement& element)
             add(*as, child);
         } else if (const std::string* id = child.attribute("id"); id && is_object_tag(child.tag)) {
             add(*id, child);
+        } else if (id && child.tag == "ref") {
+            referenced_ids.insert(*id);
         }
-        collect(child);
+        collect(child, referenced_ids);
     }
 }
 
@@ -48,18 +59,30 @@ void SceneIndex::add(const std::string& id, const XmlElement& element)
     throw SceneError(element.where, "the id '" + id + "' is taken already, at " + first);
 }
 
+const XmlElement* SceneIndex::find(const std::string& id) const
+{
+    const XmlElement* object = nullptr;
+    const std::string* name = &id;
+    for (int step = 0; step <= max_aliases; step++) {
+        const auto found = objects_.find(*name);
+        if (found == objects_.end()) return nullptr;
+        object = found->second;
+        if (object->tag != "alias") break;
+        name = object->attribute("id");
+    }
+    return object;
+}
+
 const XmlElement& SceneIndex::resolve(const XmlElement& reference) const
 {
     const std::string* id = reference.attribute("id");
     if (!id) throw SceneError(reference.where, "<ref> needs the attribute id");
-    // Each alias is followed once; more steps than objects are a cycle.
-    for (std::size_t step = 0; step <= objects_.size(); step++) {
-        const auto found = objects_.find(*id);
-        if (found == objects_.end()) throw SceneError(reference.where, "reference to unknown id '" + *id + "'");
-        if (found->second->tag != "alias") return *found->second;
-        id = found->second->attribute("id");
-    }
-    throw SceneError(reference.where, "the aliases of '" + *id + "' refer to each other in a circle");
+    const XmlElement* object = find(*id);
+    if (!object) throw SceneError(reference.where, "reference to unknown id '" + *id + "'");
+    if (object->tag == "alias")
+        throw SceneError(reference.where, "the aliases of '" + *id + "' refer to each other in a circle, or more than " +
+                                              std::to_string(max_aliases) + " times");
+    return *object;
 }
 
 std::filesystem::path SceneIndex::find_file(const std::string& name, const SourceLocation& where) const

@@ -5,6 +5,7 @@
 #include "import/xml_document.h"
 
 #include <map>
+#include <set>
 
 namespace sundog
 {
@@ -20,6 +21,8 @@ public:
 
     // The object that a <ref> means, through any <alias>. Throws SceneError for unknown ids.
     const XmlElement& resolve(const XmlElement& reference) const;
+    // Whether some <ref> in the scene means this object.
+    bool is_referenced(const XmlElement& object) const { return referenced_.contains(&object); }
 
     // The path of a file that the scene names: absolute, in a <path> folder, beside the scene, or beside the
     // including file. Throws SceneError naming the paths tried.
@@ -36,13 +39,16 @@ public:
     void missing(const SourceLocation& where, const std::string& what, const std::string& details, const std::string& stand_in) const;
 
 private:
-    void collect(const XmlElement& element);
+    void collect(const XmlElement& element, std::set<std::string>& referenced_ids);
     void add(const std::string& id, const XmlElement& element);
+    // The object of an id, through any <alias>. Null for an unknown id; an <alias> where they go in a circle.
+    const XmlElement* find(const std::string& id) const;
 
     const XmlScene& scene_;
     std::vector<Warning>& warnings_;
     bool allow_missing_;
     std::map<std::string, const XmlElement*, std::less<>> objects_; // an <alias> stands for itself
+    std::set<const XmlElement*> referenced_;
 };
 
 } // namespace sundog

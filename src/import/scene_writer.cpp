@@ -28,6 +28,7 @@ void write_integrator(ObjectWriter root, const IntegratorRequest& request)
     if (request.method.empty()) return;
     ObjectWriter object = root.object("integrator", request.method);
     for (const auto& [name, parameter] : request.parameters) object.value(tag_of(parameter.value), name, parameter.value);
+    if (request.hide_emitters) object.boolean("hide_emitters", true);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "import/sensor_import.h"
 
 #include "import/animation_import.h"
+#include "import/limits.h"
 #include "import/number_text.h"
 #include "import/text_file.h"
 #include "math/direction.h"
@@ -17,6 +18,8 @@ namespace
 {
 
 constexpr double degree = std::numbers::pi / 180.0;
+constexpr double largest_offset = 1e3;   // of the film's middle from the axis, in films
+constexpr double largest_aperture = 1e5; // in distances to the plane in focus
 
 double parse_focal_length(ObjectReader& reader)
 {
@@ -39,9 +42,7 @@ std::string read_fov_axis(ObjectReader& reader, double aspect)
     throw SceneError(reader.where_of("fov_axis"), "fov_axis must be x, y, diagonal, smaller or larger, got '" + axis + "'");
 }
 
-} // namespace
-
-double read_tan_half_x(ObjectReader& reader, double aspect)
+double read_tangent(ObjectReader& reader, double aspect)
 {
     const double diagonal_to_x = 1.0 / std::sqrt(1.0 + 1.0 / (aspect * aspect));
     if (!reader.has("fov")) {
@@ -61,6 +62,18 @@ double read_tan_half_x(ObjectReader& reader, double aspect)
     return tangent;
 }
 
+} // namespace
+
+double read_tan_half_x(ObjectReader& reader, double aspect)
+{
+    const double tangent = read_tangent(reader, aspect);
+    if (tangent >= narrowest_tangent && tangent <= widest_tangent) return tangent;
+    const char* name = reader.has("fov") ? "fov" : "focal_length";
+    throw SceneError(reader.where_of(name), tangent < widest_tangent
+                                                ? "the field of view is too narrow for 32-bit numbers: make it at least 1e-5 degrees wide"
+                                                : "the field of view is too wide for 32-bit numbers: make it at most 179.99999 degrees");
+}
+
 namespace
 {
 
@@ -78,7 +91,7 @@ Transform read_key(const Transform& to_world, const SourceLocation& where)
 {
     Sensor sensor;
     set_pose(to_world, sensor);
-    if (!is_finite(sensor.position)) throw SceneError(where, "the position of the sensor is too large for 32-bit numbers");
+    check_position(sensor.position, where, "the sensor");
     return pose_of(sensor);
 }
 
@@ -113,8 +126,8 @@ void read_perspective(ObjectReader& reader, const SceneIndex& index, const Film&
     if (scaled) index.warn(where, "the scale in to_world of a sensor is ignored", WarningKind::ignored);
     read_pose(to_world, where, sensor);
     sensor.fov_x = static_cast<float>(2.0 * std::atan(read_tan_half_x(reader, static_cast<double>(film.width) / film.height)));
-    sensor.principal_offset_x = static_cast<float>(reader.number("principal_point_offset_x", 0.0));
-    sensor.principal_offset_y = static_cast<float>(reader.number("principal_point_offset_y", 0.0));
+    sensor.principal_offset_x = static_cast<float>(reader.number_between("principal_point_offset_x", 0.0, -largest_offset, largest_offset));
+    sensor.principal_offset_y = static_cast<float>(reader.number_between("principal_point_offset_y", 0.0, -largest_offset, largest_offset));
 }
 
 // Lengths of to_world's axes, which must be perpendicular.
@@ -165,6 +178,8 @@ void read_lens(ObjectReader& reader, const SceneIndex& index, Sensor& sensor)
         throw SceneError(reader.where(), "thinlens needs a <float name=\"aperture_radius\">");
     const double radius = reader.number("aperture_radius", 0.0);
     if (radius < 0.0) throw SceneError(reader.where_of("aperture_radius"), "aperture_radius must be >= 0");
+    if (radius > largest_coordinate || radius > largest_aperture * static_cast<double>(sensor.focus_distance))
+        throw SceneError(reader.where_of("aperture_radius"), "aperture_radius must be at most 1e5 times the focus_distance, and 1e12");
     if (radius == 0.0) index.warn(reader.where_of("aperture_radius"), "aperture_radius is 0: all is in focus");
     sensor.aperture_radius = static_cast<float>(radius);
 }
@@ -175,7 +190,8 @@ void read_sampler(ObjectReader& sensor, const SceneIndex& index, IntegratorReque
     if (!sampler) return;
     ObjectReader reader(*sampler->object, index);
     const std::string type = reader.type();
-    if (type != "independent") index.warn(reader.where(), "sampler '" + type + "' is ignored: the method chooses its random numbers", WarningKind::ignored);
+    if (type != "independent")
+        index.warn(reader.where(), "sampler '" + type + "' is ignored: the method chooses its random numbers", WarningKind::ignored);
     request.sample_count = reader.integer("sample_count", 4);
     if (request.sample_count < 1) throw SceneError(reader.where_of("sample_count"), "sample_count must be >= 1");
     const int seed = reader.integer("seed", 0);

@@ -30,7 +30,7 @@ SpectrumSamples parse_spectrum_pairs(const XmlElement& element, const std::vecto
         const auto wavelength = parse_number(pair.substr(0, colon));
         const auto value = colon == std::string_view::npos ? std::nullopt : parse_number(pair.substr(colon + 1));
         if (!wavelength || !value)
-            throw SceneError(element.where, "a spectrum must be one number or pairs wavelength:value, got '" + std::string(pair) + "'");
+            throw SceneError(element.where, "a spectrum must be one number, three (red, green, blue) or pairs wavelength:value, got '" + std::string(pair) + "'");
         samples.push_back({*wavelength, *value});
     }
     check_samples(samples, element.where);

@@ -54,6 +54,17 @@ void read_uv_transform(ObjectReader& reader, TextureDescription& texture)
     texture.to_v = row(to_uv.m[1], scale_v, offset_v);
 }
 
+// A number, or the luminance of a colour in its place.
+double gray_value(ObjectReader& reader, std::string_view name, double fallback)
+{
+    const XmlElement* value = reader.find(name);
+    if (!value || value->tag == "float" || value->tag == "integer" || !is_color_tag(value->tag)) return reader.number(name, fallback);
+    const Vec3 color = reader.color(name, {}, ColorRole::index);
+    if (!(color.x == color.y && color.y == color.z))
+        reader.index().warn(value->where, "'" + std::string(name) + "' is a number here: of the colour its luminance counts", WarningKind::approximated);
+    return color.x == color.y && color.y == color.z ? color.x : luminance(color);
+}
+
 } // namespace
 
 ColorSource TextureImporter::color(ObjectReader& reader, std::string_view name, Vec3 fallback, ColorRole role)
@@ -85,7 +96,7 @@ NumberSource TextureImporter::number(ObjectReader& reader, std::string_view name
         const float factor = luminance(source.value);
         return source.texture ? NumberSource(factor, *source.texture) : NumberSource(factor);
     }
-    const double value = reader.number(name, fallback);
+    const double value = gray_value(reader, name, fallback);
     if (!(value >= least && value <= most)) {
         char range[80];
         std::snprintf(range, sizeof range, " must be between %g and %g, got %g", least, most, value);

@@ -32,10 +32,12 @@ class SceneReader
 {
 public:
     SceneReader(const std::map<std::string, std::string>& defines, std::vector<Warning>& warnings)
-        : parameters_(defines), defines_(defines), warnings_(warnings)
+        : parameters_(defines.begin(), defines.end()), defines_(defines), warnings_(warnings)
     {
-        for (const auto& [name, value] : defines)
+        for (const auto& [name, value] : defines) {
             if (name.empty()) throw UsageError("-D: a parameter needs a name, as in -D NAME=VALUE");
+            name_lengths_.insert(name.size());
+        }
     }
 
     XmlScene read(const std::filesystem::path& file)
@@ -104,8 +106,9 @@ private:
 
     void read_attributes(const XmlFile& xml, pugi::xml_node node, XmlElement& element)
     {
+        std::set<std::string_view> names;
         for (const pugi::xml_attribute attribute : node.attributes()) {
-            if (element.attribute(attribute.name()))
+            if (!names.insert(attribute.name()).second)
                 throw SceneError(xml.where(node),
                                  "attribute '" + std::string(attribute.name()) + "' is given twice in <" + element.tag + ">");
             element.attributes.emplace_back(attribute.name(), substitute(attribute.value(), element.where));
@@ -125,16 +128,24 @@ private:
                 continue;
             }
             const std::string_view rest = std::string_view(text).substr(i + 1);
-            const std::pair<const std::string, std::string>* best = nullptr;
-            for (const auto& parameter : parameters_)
-                if (rest.starts_with(parameter.first) && (!best || parameter.first.size() > best->first.size())) best = &parameter;
-            if (!best) throw SceneError(where, "undefined parameter in '" + text + "': " + cure_for_undefined(rest));
+            const auto best = find_parameter(rest);
+            if (best == parameters_.end()) throw SceneError(where, "undefined parameter in '" + text + "': " + cure_for_undefined(rest));
             known_.insert(best->first);
             result += best->second;
             i += 1 + best->first.size();
         }
         text_bytes_ += result.size();
         return result;
+    }
+
+    // The parameter with the longest name that `text` begins with.
+    std::map<std::string, std::string, std::less<>>::const_iterator find_parameter(std::string_view text) const
+    {
+        for (auto length = name_lengths_.rbegin(); length != name_lengths_.rend(); ++length) {
+            if (*length > text.size()) continue;
+            if (const auto found = parameters_.find(text.substr(0, *length)); found != parameters_.end()) return found;
+        }
+        return parameters_.end();
     }
 
     static std::string cure_for_undefined(std::string_view rest)
@@ -152,6 +163,7 @@ private:
         const std::string* value = element.attribute("value");
         if (!name || name->empty() || !value) throw SceneError(element.where, "<default> needs the attributes name and value");
         known_.insert(*name);
+        name_lengths_.insert(name->size());
         parameters_.emplace(*name, *value);
     }
 
@@ -160,11 +172,26 @@ private:
         const std::string* value = element.attribute("value");
         if (!value || value->empty()) throw SceneError(element.where, "<path> needs the attribute value");
         if (depth != 1) throw SceneError(element.where, "<path> must be a child of <scene>");
-        std::filesystem::path folder(*value);
-        if (folder.is_relative()) folder = std::filesystem::path(element.where.file).parent_path() / folder;
-        std::error_code failed;
-        if (!std::filesystem::is_directory(folder, failed)) throw SceneError(element.where, "folder '" + folder.string() + "' not found");
-        scene_.resource_folders.insert(scene_.resource_folders.begin(), folder);
+        std::string tried;
+        for (const auto& folder : places_of(*value, std::filesystem::path(element.where.file).parent_path())) {
+            std::error_code failed;
+            if (std::filesystem::is_directory(folder, failed)) {
+                scene_.resource_folders.insert(scene_.resource_folders.begin(), folder);
+                return;
+            }
+            tried += (tried.empty() ? "'" : ", '") + folder.string() + "'";
+        }
+        warnings_.emplace_back(element.where.prefix() + "<path> is ignored: there is no folder " + tried, WarningKind::ignored);
+    }
+
+    // Where what a file in `beside` names may be: there, in the folders of <path>, and beside the scene.
+    std::vector<std::filesystem::path> places_of(const std::filesystem::path& name, const std::filesystem::path& beside) const
+    {
+        if (name.is_absolute()) return {name};
+        std::vector<std::filesystem::path> places = {beside / name};
+        for (const auto& folder : scene_.resource_folders) places.push_back(folder / name);
+        if (const auto place = std::filesystem::path(scene_.file).parent_path() / name; place != places.front()) places.push_back(place);
+        return places;
     }
 
     void read_include(const XmlElement& element, XmlElement& parent, int depth)
@@ -226,7 +253,8 @@ private:
                                  (known_.empty() ? "it has none at all" : "it has " + quoted_list(known_)));
     }
 
-    std::map<std::string, std::string> parameters_;
+    std::map<std::string, std::string, std::less<>> parameters_;
+    std::set<std::size_t> name_lengths_; // of the parameters
     const std::map<std::string, std::string>& defines_;
     std::vector<Warning>& warnings_;
     std::set<std::string> known_; // parameters that some <default> or $name mentions

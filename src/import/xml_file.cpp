@@ -1,5 +1,7 @@
 #include "import/xml_file.h"
 
+#include "import/xml_encoding.h"
+
 #include <algorithm>
 #include <cctype>
 #include <string_view>
@@ -34,7 +36,7 @@ std::string explain(const pugi::xml_parse_result& result, bool at_end)
 
 XmlFile::XmlFile(const std::filesystem::path& file, const SourceLocation& wanted_at, FileKind kind) : name_(file.string())
 {
-    const std::string text = read_text_file(file, wanted_at, kind);
+    const std::string text = utf8_of_xml(read_text_file(file, wanted_at, kind), {name_, 1});
     size_ = text.size();
     line_starts_.push_back(0);
     for (std::size_t i = 0; i < text.size(); i++)

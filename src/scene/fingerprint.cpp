@@ -53,6 +53,7 @@ std::string fingerprint(const FlatScene& scene, const Camera& camera, const Pixe
 {
     Hash hash;
     append(hash, scene);
+    if (scene.hides_emitters) append(hash, std::span(&scene.hidden, 1));
     append(hash, std::span(&camera, 1));
     append(hash, std::span(&filter, 1));
     return hash.hex();

@@ -79,17 +79,26 @@ struct ShapeFlattener {
     }
 };
 
-// The shapes of one group, or those of none.
-PrimitiveRange flatten_shapes(const Scene& scene, std::optional<uint> group, FlatScene& flat)
+// Some of the shapes, as one range.
+template <class Chosen> PrimitiveRange flatten_shapes(const Scene& scene, FlatScene& flat, const Chosen& is_chosen)
 {
     PrimitiveRange range;
     range.first_triangle = static_cast<uint>(flat.triangles.size());
     range.first_analytic = static_cast<uint>(flat.analytics.size());
     for (uint i = 0; i < scene.shapes.size(); i++)
-        if (scene.shapes[i].group == group) std::visit(ShapeFlattener{flat, i, flat.shapes[i]}, scene.shapes[i].geometry);
+        if (is_chosen(scene.shapes[i])) std::visit(ShapeFlattener{flat, i, flat.shapes[i]}, scene.shapes[i].geometry);
     range.triangle_count = static_cast<uint>(flat.triangles.size()) - range.first_triangle;
     range.analytic_count = static_cast<uint>(flat.analytics.size()) - range.first_analytic;
     return range;
+}
+
+void flatten_all_shapes(const Scene& scene, FlatScene& flat)
+{
+    const auto is_hidden = [&](const ShapeDescription& shape) { return flat.hides_emitters && shape.emitter; };
+    flat.world = flatten_shapes(scene, flat, [&](const ShapeDescription& shape) { return !shape.group && !is_hidden(shape); });
+    flat.hidden = flatten_shapes(scene, flat, is_hidden); // groups hold no lights
+    for (uint group = 0; group < scene.groups.size(); group++)
+        flat.groups.push_back(flatten_shapes(scene, flat, [&](const ShapeDescription& shape) { return shape.group == group; }));
 }
 
 Vec3 row(const Transform& t, std::size_t i)
@@ -130,8 +139,8 @@ FlatScene flatten_scene(const Scene& scene)
     flat.principled = flatten_principled(scene.bsdfs);
     flatten_textures(scene, flat);
     for (const auto& description : scene.shapes) flat.shapes.push_back({description.bsdf, NO_LIGHT, 0, 0});
-    flat.world = flatten_shapes(scene, std::nullopt, flat);
-    for (uint group = 0; group < scene.groups.size(); group++) flat.groups.push_back(flatten_shapes(scene, group, flat));
+    flat.hides_emitters = scene.integrator.hide_emitters;
+    flatten_all_shapes(scene, flat);
     flat.shutter = scene.sensor.shutter;
     if (scene.sensor.motion && scene.sensor.motion->moves(flat.shutter.open, flat.shutter.close)) flat.sensor_motion = scene.sensor.motion;
     for (const auto& instance : scene.instances) flatten_instance(instance, flat);
@@ -139,7 +148,8 @@ FlatScene flatten_scene(const Scene& scene)
     if (!flat.uvs.empty()) flat.uvs.resize(flat.positions.size(), Vec2{});
     list_attributes(scene, flat);
 
-    const Bounds bounds = scene.bounds();
+    Bounds bounds = scene.bounds();
+    if (bounds.empty()) bounds.extend(scene.sensor.position); // lights alone
     flat.globals.center = bounds.center();
     // A little more than the half diagonal, so that rays from the sphere start outside of everything.
     flat.globals.radius = std::max(bounds.radius() * 1.001f, 1e-20f);

@@ -33,7 +33,9 @@ struct FlatScene {
     std::vector<uint> texels;
     std::vector<Triangle> triangles;
     std::vector<AnalyticPrimitive> analytics;
-    PrimitiveRange world; // the first primitives; those of the groups follow, group by group
+    PrimitiveRange world; // the first primitives; those of the lights that the camera passes follow, then the groups', one by one
+    bool hides_emitters = false;
+    PrimitiveRange hidden; // where emitters are hidden, those of the lights
     std::vector<PrimitiveRange> groups;
     std::vector<Instance> instances; // all but root, center and radius, which follow from the hierarchy
     std::vector<uint> instance_groups; // index into groups, one an instance

@@ -419,6 +419,7 @@ struct IntegratorRequest {
     SourceLocation where;
     std::string method; // as in the file; empty without <integrator>
     std::map<std::string, ParameterText> parameters; // names in snake_case
+    bool hide_emitters = false; // from what sees them straight from the camera
     int sample_count = 0; // of <sampler>; 0 without one
     std::uint64_t seed = 0;
 };

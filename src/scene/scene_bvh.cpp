@@ -109,16 +109,10 @@ void check_range(const Bounds& box, std::size_t instance)
             throw SceneError({}, "instance " + std::to_string(instance) + " reaches to a coordinate beyond 1e12; check its transform");
 }
 
-} // namespace
-
-Bvh build_scene_bvh(const FlatScene& flat)
+// The tree of instances, with those of their groups.
+BvhTree append_instances(Bvh& bvh, const FlatScene& flat)
 {
-    Bvh bvh;
-    const BvhTree world = append_range(bvh, flat, flat.world);
-    bvh.root = world.root;
-    bvh.bounds = world.bounds;
-    if (flat.instances.empty()) return bvh;
-
+    if (flat.instances.empty()) return {};
     std::vector<BvhTree> groups;
     std::vector<std::vector<Bounds>> group_boxes;
     for (const PrimitiveRange& range : flat.groups) {
@@ -143,9 +137,33 @@ Bvh build_scene_bvh(const FlatScene& flat)
         bvh.bounds.extend(box);
         seen.push_back({box, static_cast<uint>(i)});
     }
-    const BvhTree instances = append_instance_tree(bvh, seen);
-    if (instances.bounds.empty()) return bvh;
-    bvh.root = world.bounds.empty() ? instances.root : join_trees(world.root, world.bounds, instances.root, instances.bounds, bvh);
+    return append_instance_tree(bvh, seen);
+}
+
+BvhTree joined(const BvhTree& first, const BvhTree& second, Bvh& bvh)
+{
+    BvhTree tree;
+    tree.root = join_trees(first.root, first.bounds, second.root, second.bounds, bvh);
+    tree.bounds = first.bounds;
+    tree.bounds.extend(second.bounds);
+    return tree;
+}
+
+} // namespace
+
+Bvh build_scene_bvh(const FlatScene& flat)
+{
+    Bvh bvh;
+    const BvhTree world = append_range(bvh, flat, flat.world);
+    bvh.bounds = world.bounds;
+    const BvhTree instances = append_instances(bvh, flat);
+    BvhTree tree = instances.bounds.empty() ? world : world.bounds.empty() ? instances : joined(world, instances, bvh);
+    if (flat.hides_emitters) { // the first child of the root is what the camera sees
+        const BvhTree hidden = append_range(bvh, flat, flat.hidden);
+        bvh.bounds.extend(hidden.bounds);
+        tree = joined(tree, hidden, bvh);
+    }
+    bvh.root = tree.root;
     return bvh;
 }
 

@@ -107,7 +107,6 @@ double surface_area(const ShapeDescription& shape)
 
 void validate_scene(Scene& scene, std::vector<Warning>& warnings)
 {
-    if (scene.shapes.empty()) throw SceneError({scene.file, 0}, "the scene has no <shape>: there is nothing to render");
     if (scene.triangle_count() > max_primitives)
         throw SceneError({scene.file, 0},
                          "the scene has " + std::to_string(scene.triangle_count()) + " triangles; at most 2^30 can be rendered");
@@ -115,6 +114,8 @@ void validate_scene(Scene& scene, std::vector<Warning>& warnings)
     check_emitters(scene, warnings);
     bool lit = !scene.emitters.empty();
     for (const auto& shape : scene.shapes) lit = lit || shape.emitter.has_value();
+    if (scene.shapes.empty() && lit)
+        warnings.push_back(Warning(SourceLocation{scene.file, 0}.prefix() + "the scene has no <shape>: it shows the environment at most"));
     if (!lit) throw SceneError({scene.file, 0}, "the scene has no light: add an <emitter> with a radiance or intensity above 0");
 }
 

@@ -16,7 +16,7 @@ class BidirectionalSamplePaths final : public PrimarySamplePaths
 public:
     BidirectionalSamplePaths(Device& device, const DeviceScene& scene, const Camera& camera, const PixelFilter& filter,
                              const PrimarySampleSettings& settings)
-        : camera_(CameraPaths::anywhere(device, camera, filter, SamplerKind::chain, settings.chains)),
+        : camera_(CameraPaths::anywhere(device, camera, filter, SamplerKind::chain, settings.chains, scene.surface_options())),
           light_subpaths_(device, scene, camera, light_settings(settings)),
           camera_subpaths_(device, scene, camera, settings.chains, settings.rules, SamplerKind::chain, true, false),
           connections_(device, scene, settings.chains, settings.rules, make_own_connections(device, settings.chains, SamplerKind::chain)),

@@ -3,6 +3,22 @@
 namespace sundog
 {
 
+namespace
+{
+
+// Rays take nothing of surfaces but whether they pass lights.
+BuildOptions ray_options(const Camera& camera, SamplerKind sampler, const BuildOptions& surface_options)
+{
+    BuildOptions options;
+    use_camera(options, camera);
+    use_sampler(options, sampler);
+    for (const auto& define : surface_options.defines)
+        if (define.first == "HIDE_EMITTERS") options.defines.push_back(define);
+    return options;
+}
+
+} // namespace
+
 CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter& filter, std::size_t count)
     : radiance(device, count, "radiance"), camera_(camera), count_(count), filter_(device, std::vector{filter}, "pixel filter")
 {
@@ -15,19 +31,16 @@ CameraPaths::CameraPaths(Device& device, const Camera& camera, const PixelFilter
     BuildOptions first_hit_options = surface_options;
     use_camera(first_hit_options, camera);
     record_first_hits_ = Kernel(device, "record_first_hits", "Record first hits", first_hit_options);
-    BuildOptions options;
-    use_camera(options, camera);
-    use_sampler(options, sampler);
+    BuildOptions options = ray_options(camera, sampler, surface_options);
     generate_camera_rays_ = Kernel(device, "generate_camera_rays", "Generate camera rays", options);
 }
 
-CameraPaths CameraPaths::anywhere(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, std::size_t count)
+CameraPaths CameraPaths::anywhere(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, std::size_t count,
+                                  const BuildOptions& surface_options)
 {
     CameraPaths paths(device, camera, filter, count);
     paths.pixels = Buffer<uint>(device, count, "path pixels");
-    BuildOptions options;
-    use_camera(options, camera);
-    use_sampler(options, sampler);
+    BuildOptions options = ray_options(camera, sampler, surface_options);
     paths.generate_camera_rays_ = Kernel(device, "generate_film_rays", "Generate camera rays", options);
     return paths;
 }

@@ -24,7 +24,8 @@ public:
                 const BuildOptions& surface_options = {});
 
     // `count` paths instead that start anywhere on the film, each at a pixel that its numbers name.
-    static CameraPaths anywhere(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, std::size_t count);
+    static CameraPaths anywhere(Device& device, const Camera& camera, const PixelFilter& filter, SamplerKind sampler, std::size_t count,
+                                const BuildOptions& surface_options);
 
     // Starts the pool's paths at the camera, finds their first hits, and clears `radiance`.
     void start(const DeviceScene& scene, PathPool& pool, const SamplerSource& numbers);

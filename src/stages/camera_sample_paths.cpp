@@ -11,7 +11,7 @@ class CameraSamplePaths final : public PrimarySamplePaths
 public:
     CameraSamplePaths(Device& device, const DeviceScene& scene, const Camera& camera, const PixelFilter& filter,
                       const PrimarySampleSettings& settings)
-        : camera_(CameraPaths::anywhere(device, camera, filter, SamplerKind::chain, settings.chains)),
+        : camera_(CameraPaths::anywhere(device, camera, filter, SamplerKind::chain, settings.chains, scene.surface_options())),
           tracer_(device, scene, settings.chains, settings.rules, SamplerKind::chain, settings.regularized),
           add_camera_contributions_(device, "add_camera_contributions", "Sum contributions"),
           contributions_(device, settings.chains, "contributions")

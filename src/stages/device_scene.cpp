@@ -26,6 +26,7 @@ BuildOptions surface_options(const FlatScene& flat, bool spectral)
     }
     if (!flat.light_tree.empty()) options.defines.emplace_back("LIGHT_TREE", "1");
     if (!flat.instances.empty()) options.defines.emplace_back("HAS_INSTANCES", "1");
+    if (flat.hides_emitters) options.defines.emplace_back("HIDE_EMITTERS", "1");
     // Without these definitions the programs are those of RGB transport, to the last bit.
     if (spectral) options.defines.emplace_back("SPECTRAL", "1");
     if (spectral && has_dispersion(flat.bsdfs)) options.defines.emplace_back("DISPERSION", "1");
@@ -48,6 +49,7 @@ DeviceScene::DeviceScene(Device& device, const Scene& scene, bool spectral, Ligh
     const Bvh bvh = build_scene_bvh(flat);
     bounds_ = bvh.bounds;
     trace_options_ = sundog::trace_options(flat.analytics, flat.instances);
+    if (flat.hides_emitters) trace_options_.defines.emplace_back("HIDE_EMITTERS", "1");
     surface_options_ = sundog::surface_options(flat, spectral);
     has_delta_lights_ = sundog::has_delta_lights(flat);
     has_lobes_to_evaluate_ = sundog::has_lobes_to_evaluate(flat.bsdfs);

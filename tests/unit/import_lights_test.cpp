@@ -132,7 +132,7 @@ TEST(ImportLights, ProjectorsAndTheirFieldOfView)
     EXPECT_FALSE(plain.texture);
     EXPECT_NEAR(plain.half_height, 1.0f, 1e-6f);
     expect_refusal("<emitter type=\"projector\"><transform name=\"to_world\"><scale x=\"2\"/></transform></emitter>", "scale evenly");
-    expect_refusal("<emitter type=\"projector\"><float name=\"scale\" value=\"-1\"/></emitter>", "scale of a projector");
+    expect_refusal("<emitter type=\"projector\"><float name=\"scale\" value=\"-1\"/></emitter>", "'scale' of emitter 'projector' must be between");
 }
 
 TEST(ImportLights, SpotsWithAnImage)

@@ -381,9 +381,9 @@ TEST(ImportScene, WhatChangesNothingIsNamed)
     EXPECT_TRUE(loaded.scene.emitters.empty());
     EXPECT_THAT(loaded.warnings,
                 ElementsAre(HasSubstr(":6: parameter 'pixel_format'"), HasSubstr(":7: parameter 'banner'"),
-                            HasSubstr(":8: sampler 'multijitter'"), HasSubstr(":2: integrator 'aov'"),
-                            HasSubstr(":3: parameter 'samples_per_pass'"), HasSubstr(":11: parameter 'sampling_weight'"),
-                            HasSubstr(":12: 'reflectance' is outside of [0, 1]"), HasSubstr(":14: a light that emits nothing")));
+                            HasSubstr(":8: sampler 'multijitter'"), HasSubstr(":11: parameter 'sampling_weight'"),
+                            HasSubstr(":12: 'reflectance' is outside of [0, 1]"), HasSubstr(":2: integrator 'aov'"),
+                            HasSubstr(":3: parameter 'samples_per_pass'"), HasSubstr(":14: a light that emits nothing")));
 }
 
 TEST(ImportScene, PhotonMapperNamesOfMitsuba06)

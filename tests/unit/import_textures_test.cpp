@@ -140,7 +140,7 @@ TEST(ImportTextures, WhatIsWrongIsSaid)
     expect_error(diffuse(R"(<texture name="reflectance" type="bitmap"><string name="filename" value="a.ppm"/><string name="filter_type" value="best"/></texture>)"), "nearest or bilinear");
     expect_error(diffuse(R"(<texture name="reflectance" type="curvature"/>)"), "texture plugin 'curvature' is not supported; supported are bitmap");
     expect_error(diffuse(R"(<texture name="reflectance" type="scale"/>)"), "needs a <texture> inside");
-    expect_error(R"(<shape type="sphere"><bsdf type="roughconductor"><float name="alpha" value="7"/></bsdf></shape>)", "'alpha' must be between 0 and 1, got 7");
+    expect_error(R"(<shape type="sphere"><bsdf type="roughconductor"><float name="alpha" value="700"/></bsdf></shape>)", "'alpha' must be between 0 and 100, got 700");
     expect_error(R"(<shape type="sphere"><bsdf type="roughconductor"><string name="distribution" value="blinn"/></bsdf></shape>)", "beckmann or ggx");
     expect_error(R"(<bsdf type="mask" id="m"><ref id="m"/></bsdf><shape type="sphere"><ref id="m"/></shape>)", "contains itself");
     expect_error(R"(<shape type="sphere"><bsdf type="blendbsdf"><bsdf type="diffuse"/></bsdf></shape>)", "needs 2 bsdf inside, got 1");
