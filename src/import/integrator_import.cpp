@@ -3,6 +3,7 @@
 #include "import/number_text.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sundog
 {
@@ -114,7 +115,8 @@ private:
         if (type_ != "photonmapper") return false;
         if (name == "global_lookup_radius" || name == "caustic_lookup_radius") {
             const auto radius = static_cast<float>(reader_.positive(name, 1.0) * static_cast<double>(scene_radius_));
-            set(name == "global_lookup_radius" ? "radius" : "caustic_radius", number_text(radius), name);
+            if (std::isfinite(radius)) // not of a scene without shapes
+                set(name == "global_lookup_radius" ? "radius" : "caustic_radius", number_text(radius), name);
             return true;
         }
         if (name == "lookup_size") {

@@ -11,7 +11,7 @@ constexpr double largest_coordinate = 1e12;      // of what has a place, as the 
 constexpr double largest_emission = 1e18;        // radiance, intensity, irradiance or power; squared by estimates of errors
 constexpr double largest_relative_index = 100.0; // of dielectrics; its inverse is the least
 constexpr double largest_complex_index = 1e8;    // eta and k of conductors
-constexpr double narrowest_tangent = 1e-7, widest_tangent = 1.2e7; // of half a field of view
+constexpr double narrowest_tangent = 1e-7, widest_tangent = 2e7; // of half a field of view
 
 // Each throws SceneError, saying what is allowed.
 void check_position(Vec3 position, const SourceLocation& where, const std::string& what);
