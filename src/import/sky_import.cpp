@@ -20,7 +20,8 @@ constexpr const char* time_and_place[] = {"latitude", "longitude", "timezone", "
 double within(ObjectReader& reader, const char* name, double fallback, double least, double most, const char* range)
 {
     const double value = reader.number(name, fallback);
-    if (!(value >= least && value <= most)) throw SceneError(reader.where_of(name), std::string(name) + " of a " + reader.type() + " emitter must be " + range);
+    if (!(value >= least && value <= most))
+        throw SceneError(reader.where_of(name), std::string(name) + " of a " + reader.type() + " emitter must be " + range);
     return value;
 }
 
@@ -62,7 +63,9 @@ Vec3 read_sun_direction(ObjectReader& reader, const Transform& to_world)
     const auto given = reader.vector("sun_direction");
     if (!given) return direction_of(to_world.vector(local_direction(sun_position(read_place_and_time(reader)), reader.index().legacy())));
     for (const char* name : time_and_place)
-        if (reader.has(name)) throw SceneError(reader.where_of(name), "give a " + reader.type() + " emitter either sun_direction or a place and time, not both");
+        if (reader.has(name))
+            throw SceneError(reader.where_of(name),
+                             "give a " + reader.type() + " emitter either sun_direction or a place and time, not both");
     if (*given == Vec3{0, 0, 0}) throw SceneError(reader.where_of("sun_direction"), "sun_direction must not be zero");
     return direction_of(*given);
 }
@@ -73,7 +76,8 @@ float read_aperture(ObjectReader& reader)
         throw SceneError(reader.where_of("sun_radius_scale"), "give either sun_aperture or sun_radius_scale, not both");
     const double factor = within(reader, "sun_radius_scale", 1.0, 0.0, 300.0, "between 0 and 300");
     if (factor == 0.0) {
-        reader.index().warn(reader.where_of("sun_radius_scale"), "a sun without extent is rendered with a diameter of 0.01 degrees", WarningKind::approximated);
+        reader.index().warn(reader.where_of("sun_radius_scale"), "a sun without extent is rendered with a diameter of 0.01 degrees",
+                            WarningKind::approximated);
         return least_aperture;
     }
     const double aperture = reader.number("sun_aperture", static_cast<double>(natural_aperture) * factor);
@@ -96,7 +100,9 @@ SunSkyEmitter read_sun_sky(ObjectReader& reader)
     emitter.up = direction_of(to_world.vector(legacy ? Vec3{0, 1, 0} : Vec3{0, 0, 1}));
     emitter.sun_direction = read_sun_direction(reader, to_world);
     if (dot(emitter.up, emitter.sun_direction) < 0.0f)
-        throw SceneError(reader.where(), "the sun is below the horizon, where the model of the sky has no data: choose another sun_direction, place or time");
+        throw SceneError(
+            reader.where(),
+            "the sun is below the horizon, where the model of the sky has no data: choose another sun_direction, place or time");
     emitter.turbidity = static_cast<float>(within(reader, "turbidity", 3.0, 1.0, 10.0, "between 1 and 10"));
     const float ground = legacy ? 0.2f : 0.3f;
     emitter.albedo = reader.color("albedo", {ground, ground, ground}, ColorRole::reflectance);

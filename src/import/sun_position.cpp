@@ -35,8 +35,8 @@ SunPosition sun_position(const PlaceAndTime& when)
     // Along the ecliptic.
     const double omega = 2.1429 - 0.0010394594 * days;
     const double anomaly = 6.2400600 + 0.0172019699 * days;
-    const double longitude = 4.8950630 + 0.017202791698 * days + 0.03341607 * std::sin(anomaly) + 0.00034894 * std::sin(2.0 * anomaly) - 0.0001134 -
-                             0.0000203 * std::sin(omega);
+    const double longitude = 4.8950630 + 0.017202791698 * days + 0.03341607 * std::sin(anomaly) + 0.00034894 * std::sin(2.0 * anomaly) -
+                             0.0001134 - 0.0000203 * std::sin(omega);
     const double obliquity = 0.4090928 - 6.2140e-9 * days + 0.0000396 * std::cos(omega);
     // Along the celestial equator.
     const double right_ascension = std::atan2(std::cos(obliquity) * std::sin(longitude), std::cos(longitude));
@@ -47,7 +47,8 @@ SunPosition sun_position(const PlaceAndTime& when)
     const double latitude = when.latitude * degree;
     const double cosine = std::cos(latitude) * std::cos(hour_angle) * std::cos(declination) + std::sin(declination) * std::sin(latitude);
     const double seen_from_centre = std::acos(std::fmin(std::fmax(cosine, -1.0), 1.0));
-    const double azimuth = std::atan2(-std::sin(hour_angle), std::tan(declination) * std::cos(latitude) - std::sin(latitude) * std::cos(hour_angle));
+    const double azimuth =
+        std::atan2(-std::sin(hour_angle), std::tan(declination) * std::cos(latitude) - std::sin(latitude) * std::cos(hour_angle));
 
     constexpr double parallax = 6371.01 / 149597890.0; // the earth's radius over its distance
     return {seen_from_centre + parallax * std::sin(seen_from_centre), azimuth < 0.0 ? azimuth + 2.0 * pi : azimuth};

@@ -5,7 +5,7 @@ namespace sundog
 {
 
 struct PlaceAndTime {
-    double latitude = 35.6894; // degrees north: Tokyo, a summer afternoon, as in Mitsuba
+    double latitude = 35.6894;   // degrees north: Tokyo, a summer afternoon, as in Mitsuba
     double longitude = 139.6917; // degrees east
     double timezone = 9.0;       // hours ahead of universal time
     int year = 2010;

@@ -42,7 +42,8 @@ std::array<double, sky_table::elevations> bernstein(double x)
 }
 
 // A value of the table by turbidity, albedo and elevation: linear in the first two, a Bezier curve over the third.
-template <class Table> double interpolate(Between turbidity, double albedo, const std::array<double, sky_table::elevations>& weights, Table table)
+template <class Table>
+double interpolate(Between turbidity, double albedo, const std::array<double, sky_table::elevations>& weights, Table table)
 {
     double sum = 0.0;
     for (std::size_t i = 0; i < weights.size(); i++) {
@@ -67,9 +68,10 @@ ClearSky::ClearSky(double turbidity, Vec3 albedo, double sun_elevation)
     const double albedos[] = {albedo.x, albedo.y, albedo.z};
     for (std::size_t c = 0; c < channels_.size(); c++) {
         for (std::size_t p = 0; p < sky_table::sky_parameters; p++) {
-            channels_[c].parameters[p] = interpolate(t, albedos[c], weights, [&](std::size_t at, std::size_t ground, std::size_t i) -> double {
-                return sky_table::sky_parameter(at, ground, i, c, p);
-            });
+            channels_[c].parameters[p] =
+                interpolate(t, albedos[c], weights, [&](std::size_t at, std::size_t ground, std::size_t i) -> double {
+                    return sky_table::sky_parameter(at, ground, i, c, p);
+                });
         }
         channels_[c].radiance = interpolate(t, albedos[c], weights, [&](std::size_t at, std::size_t ground, std::size_t i) -> double {
             return sky_table::sky_radiance(at, ground, i, c);
@@ -79,7 +81,8 @@ ClearSky::ClearSky(double turbidity, Vec3 albedo, double sun_elevation)
         for (std::size_t c = 0; c < sky_table::channels; c++)
             for (std::size_t p = 0; p < sky_table::sun_powers; p++)
                 for (std::size_t l = 0; l < sky_table::limb_powers; l++) {
-                    const double low = sky_table::sun_radiance(t.first, s, c, p, l), high = sky_table::sun_radiance(t.first + 1, s, c, p, l);
+                    const double low = sky_table::sun_radiance(t.first, s, c, p, l),
+                                 high = sky_table::sun_radiance(t.first + 1, s, c, p, l);
                     sun_.push_back(std::lerp(low, high, t.weight));
                 }
 }

@@ -90,8 +90,9 @@ SunDisk paint_sun(const SunSkyEmitter& emitter, const ClearSky& sky, const Frame
     const double half_angle = 0.5 * emitter.sun_aperture * pi / 180.0, rim = std::sin(half_angle);
     const double sun_polar = sun_polar_angle(emitter), polar = sun_polar * emitter.stretch;
     SunDisk sun;
-    sun.direction = unit({std::sin(polar) * frame.z.x + std::cos(polar) * frame.y.x, std::sin(polar) * frame.z.y + std::cos(polar) * frame.y.y,
-                          std::sin(polar) * frame.z.z + std::cos(polar) * frame.y.z});
+    sun.direction =
+        unit({std::sin(polar) * frame.z.x + std::cos(polar) * frame.y.x, std::sin(polar) * frame.z.y + std::cos(polar) * frame.y.y,
+              std::sin(polar) * frame.z.z + std::cos(polar) * frame.y.z});
     if (emitter.stretch == 1.0f) sun.direction = emitter.sun_direction;
     sun.tangent = unit(cross(cross(to_double(sun.direction), to_double(frame.x)), to_double(sun.direction)));
     sun.one_minus_cos = static_cast<float>(2.0 * std::pow(std::sin(0.5 * half_angle), 2.0));

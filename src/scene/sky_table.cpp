@@ -38,7 +38,8 @@ float sky_radiance(std::size_t turbidity, std::size_t albedo, std::size_t elevat
 
 float sun_radiance(std::size_t turbidity, std::size_t segment, std::size_t channel, std::size_t power, std::size_t limb_power)
 {
-    return number(sun_begin + (((turbidity * sun_segments + segment) * channels + channel) * sun_powers + power) * limb_powers + limb_power);
+    return number(sun_begin + (((turbidity * sun_segments + segment) * channels + channel) * sun_powers + power) * limb_powers +
+                  limb_power);
 }
 
 } // namespace sundog::sky_table

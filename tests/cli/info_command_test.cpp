@@ -85,6 +85,20 @@ SmallScene moving_scene(const std::string& shutter_close)
     return scene;
 }
 
+TEST_F(CliInfo, stand_ins_for_what_is_missing_are_asked_for)
+{
+    SmallScene scene;
+    scene.shape = "\n<shape type=\"sphere\"><bsdf type=\"hair\"/></shape>";
+    write("scene.xml", scene.xml());
+    const Outcome refused = run({"info", "scene.xml"});
+    EXPECT_EQ(refused.status, 3);
+    EXPECT_THAT(refused.err, HasSubstr("bsdf plugin 'hair' is not supported"));
+    EXPECT_THAT(refused.err, HasSubstr("--allow-missing"));
+    const Outcome allowed = run({"info", "scene.xml", "--allow-missing"});
+    EXPECT_EQ(allowed.status, 0) << allowed.err;
+    EXPECT_THAT(allowed.out, HasSubstr("a diffuse bsdf of reflectance 0.5 stands in for it"));
+}
+
 TEST_F(CliInfo, says_what_moves)
 {
     write("scene.xml", moving_scene("0.5").xml());

@@ -293,6 +293,23 @@ TEST_P(Agreement, Phong)
     expect_agreement(scene, {request("path", 96), request("pppm", 16), request("vcm", 32)}, {request("ptracer", 16), request("upg", 32)}, edge_bias);
 }
 
+// A layer that absorbs over a diffuse base, which is asked for photons, and a rough one over metal.
+TEST_P(Agreement, Coatings)
+{
+    Scene scene = cornell_box(size);
+    const auto coated = [&](uint nested, std::optional<Roughness> roughness) {
+        CoatingBsdf coating;
+        coating.sigma_a = {.1f, .3f, .5f};
+        coating.roughness = roughness;
+        coating.nested = nested;
+        return add_bsdf(scene, coating);
+    };
+    const uint base = add_bsdf(scene, DiffuseBsdf{{.8f, .7f, .6f}}), metal = add_bsdf(scene, ConductorBsdf{{0, 0, 0}, {1, 1, 1}, {.9f, .9f, .9f}, Roughness{false, .4f, .4f}});
+    scene.shapes.push_back(make_sphere({.45f, -.6f, .3f}, .4f, coated(base, std::nullopt)));
+    scene.shapes.push_back(make_sphere({-.45f, -.6f, -.3f}, .4f, coated(metal, Roughness{true, .3f, .3f})));
+    expect_agreement(scene, {request("path", 96), request("sppm", 32), request("vcm", 32)}, {request("ptracer", 16), request("pppm", 16), request("upg", 32)}, edge_bias);
+}
+
 // An 8 x 8 bitmap that is different in each texel, and the relief that it makes of a wall with texture coordinates.
 uint add_relief(Scene& scene, bool normals, uint nested)
 {
@@ -416,6 +433,18 @@ TEST_P(Agreement, EnvironmentMap)
     expect_agreement(scene_under_a_map(random_environment(16, 9, 30.0f)),
                      {request("path", 128), request("ptracer", 64), request("pppm", 32), request("vcm", 48)},
                      {request("sppm", 32), request("pppm", 32, "direct", "photons"), request("bdpt", 48), request("bpm", 32), request("upg", 48), request("pssmlt", 24)}, edge_bias);
+}
+
+// Both are one light: paths find the sun by either of two strategies, photons start from it. It stands behind the camera.
+TEST_P(Agreement, SunAndSky)
+{
+    Scene scene = scene_under_a_map(random_environment(2, 2, 1.0f));
+    SunSkyEmitter sunsky;
+    sunsky.up = {0, 1, 0};
+    sunsky.sun_direction = normalize(Vec3{.3f, .8f, .4f});
+    scene.emitters[0].model = sunsky;
+    expect_agreement(scene, {request("path", 64), request("ptracer", 64), request("sppm", 32)},
+                     {request("pppm", 32, "direct", "photons"), request("vcm", 48), request("bdpt", 48), request("upg", 48)}, edge_bias);
 }
 
 TEST_P(Agreement, AWhiteMapIsAConstantEnvironment)

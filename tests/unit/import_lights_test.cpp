@@ -83,7 +83,7 @@ TEST(ImportLights, WrongSpectraAreRefused)
     expect_refusal(light("regular", R"(<string name="values" value="1, -1"/>)"), "negative");
     expect_refusal(light("uniform", ""), "needs a <float name=\"value\">");
     expect_refusal(light("rainbow", ""), "supported are blackbody, d65, irregular, regular, srgb, uniform");
-    // The cures that README and docs promise.
+    // The cure that README and docs promise.
     expect_refusal("<shape type=\"sphere\"><emitter type=\"directionalarea\"/></shape>", "behind a hole");
 }
 
