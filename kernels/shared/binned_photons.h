@@ -1,5 +1,5 @@
 // Photons counted by equal areas of the disk that a query searches, and what chi-squared tests of the counts have
-// made of a pixel's radius [Lin et al. 2020, ACM TOG 39(5)].
+// made of a pixel's radius [Lin et al. 2020, ACM TOG 39(6)].
 #ifndef SUNDOG_SHARED_BINNED_PHOTONS_H
 #define SUNDOG_SHARED_BINNED_PHOTONS_H
 #include "shared/vec3.h"

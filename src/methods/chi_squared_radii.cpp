@@ -1,5 +1,5 @@
 // A pixel keeps its radius while a chi-squared test cannot tell the photons in it from evenly spread ones [Lin, Li, Zeng, Zhang,
-// Jia, Wang, Ramamoorthi and Yan 2020, ACM TOG 39(5)], and so where light is even no radius shrinks and variance falls as 1 / N.
+// Jia, Wang and Manocha 2020, ACM TOG 39(6)], and so where light is even no radius shrinks and variance falls as 1 / N.
 #include "device/buffer_state.h"
 #include "math/chi_squared.h"
 #include "methods/radius_policy.h"

@@ -1,4 +1,4 @@
-// Chi-squared progressive photon mapping [Lin, Li, Zeng, Zhang, Jia, Wang, Ramamoorthi and Yan 2020, ACM TOG 39(5)]: a pixel keeps
+// Chi-squared progressive photon mapping [Lin, Li, Zeng, Zhang, Jia, Wang and Manocha 2020, ACM TOG 39(6)]: a pixel keeps
 // its radius while its photons lie evenly (chi_squared_radii.cpp). Estimates are averaged as they are, each by its own radius:
 // what was gathered with a wide radius before a test failed stays, and its share vanishes.
 #include "methods/averaged_photon_mapping.h"
@@ -12,7 +12,7 @@ namespace
 const MethodRegistration registration({
     .name = "cppm",
     .title = "Chi-squared progressive photon mapping",
-    .paper = "Lin, Li, Zeng, Zhang, Jia, Wang, Ramamoorthi and Yan 2020, ACM Transactions on Graphics 39(5)",
+    .paper = "Lin, Li, Zeng, Zhang, Jia, Wang and Manocha 2020, ACM Transactions on Graphics 39(6)",
     .estimator_class = "consistent",
     .error_model = ErrorModel::bias_and_variance,
     .description = "Every pixel tests whether the photons it finds lie evenly, and shrinks its radius only where they do not. Keeps wide "

@@ -1,4 +1,4 @@
-// Unbiased photon gathering [Qin, Sun, Hou, Zhu, Zhou and Guo 2015, Unbiased Photon Gathering for Light Transport Simulation, ACM
+// Unbiased photon gathering [Qin, Sun, Hou, Guo and Zhou 2015, Unbiased Photon Gathering for Light Transport Simulation, ACM
 // TOG 34(6)]: bidirectional path tracing whose camera subpaths also connect to photons near the surface that they would have
 // gone on from, divided by the probability to come as near.
 #include "methods/bidirectional.h"
@@ -20,7 +20,7 @@ ParameterSpec gathering_radius_spec()
 const MethodRegistration registration({
     .name = "upg",
     .title = "Unbiased photon gathering",
-    .paper = "Qin, Sun, Hou, Zhu, Zhou and Guo 2015, ACM TOG 34(6)",
+    .paper = "Qin, Sun, Hou, Guo and Zhou 2015, ACM TOG 34(6)",
     .estimator_class = "unbiased",
     .error_model = ErrorModel::variance,
     .description = "Bidirectional path tracing that also finds light as photon mapping does, by photons near a surface, but without its blur. For "

@@ -1,5 +1,5 @@
 // How likely was a camera subpath to come near a light vertex? Trials, whose number until one succeeds has the mean 1 / P
-// [Qin, Sun, Hou, Zhu, Zhou and Guo 2015, Unbiased Photon Gathering for Light Transport Simulation, ACM TOG 34(6), section 5].
+// [Qin, Sun, Hou, Guo and Zhou 2015, Unbiased Photon Gathering for Light Transport Simulation, ACM TOG 34(6), section 5].
 #pragma once
 
 #include "shared/trials.h"

@@ -1,4 +1,4 @@
-// Unbiased photon gathering [Qin, Sun, Hou, Zhu, Zhou and Guo 2015, ACM TOG 34(6)]: a photon near the surface that a camera subpath
+// Unbiased photon gathering [Qin, Sun, Hou, Guo and Zhou 2015, ACM TOG 34(6)]: a photon near the surface that a camera subpath
 // has found takes that surface's place. The vertex before it is connected to the photon's own vertex, and the result is divided
 // by the probability to come as near, which Bernoulli trials estimate without bias.
 #pragma once

@@ -42,7 +42,7 @@ static inline void perturb_normal(const SurfaceView* scene, const Bsdf* bsdf, co
 #endif
 
 // Shadows that the relief throws on itself, for light from `direction`: without them a relief ends in a hard line where
-// the shading normal's horizon is [Estevez et al. 2019, Ray Tracing Gems, ch. 12].
+// the shading normal's horizon is [Conty Estevez et al. 2019, Ray Tracing Gems, ch. 12].
 static inline float relief_shadowing(const Scattering* scattering, const Surface* surface, float3 direction)
 {
     const float cos_normal = dot(scattering->normal, surface->shading_normal), cos_light = dot(direction, surface->shading_normal);
