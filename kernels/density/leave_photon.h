@@ -1,6 +1,7 @@
 // What a light path leaves on a surface.
 #ifndef SUNDOG_LEAVE_PHOTON_H
 #define SUNDOG_LEAVE_PHOTON_H
+#include "density/photon_depth.h"
 #include "scene/continue_path.h"
 #include "shared/photon.h"
 
@@ -10,8 +11,7 @@ static inline Photon make_photon(const Surface* surface, const PathState* path, 
     photon.position = pack(surface->position);
     photon.direction = pack_direction(-surface->outgoing);
     photon.flux = pack(unpack(path->throughput) * irradiance_scale(surface, surface->shading_normal));
-    photon.normal_depth = pack_normal(facing(surface->geometric_normal, surface->outgoing)) | (unreached ? PHOTON_UNREACHED : 0u) |
-                          (min(path->depth, PHOTON_MAX_DEPTH) << PHOTON_DEPTH_SHIFT);
+    photon.normal_depth = pack_normal_depth(facing(surface->geometric_normal, surface->outgoing), path->depth) | (unreached ? PHOTON_UNREACHED : 0u);
     return photon;
 }
 

@@ -1,6 +1,7 @@
 // Which photons count for a query, wherever they lie: those of its side of the surface that make no path too long.
 #ifndef SUNDOG_WANTED_PHOTONS_H
 #define SUNDOG_WANTED_PHOTONS_H
+#include "density/photon_depth.h"
 #include "math/simd8.h"
 #include "math/vec3.h"
 #include "shared/photon.h"
@@ -28,10 +29,25 @@ static inline Offset8 unpack_directions(uint8 packed)
     return unit;
 }
 
+// Eight normals as pack_normal packs them, and eight numbers of edges (density/photon_depth.h).
+static inline uint8 photon_normals(uint8 normal_depth)
+{
+    const int8 deep = as_int8((normal_depth >> PHOTON_DEPTH_SHIFT) == PHOTON_DEEP);
+    return mask8(deep) ? select(normal_depth, DEEP_NORMAL_X(normal_depth) | DEEP_NORMAL_Y(normal_depth), as_uint8(deep)) : normal_depth;
+}
+
+static inline uint8 photon_depths(uint8 normal_depth)
+{
+    const uint8 depth = normal_depth >> PHOTON_DEPTH_SHIFT;
+    const int8 deep = as_int8(depth == PHOTON_DEEP);
+    return mask8(deep) ? select(depth, PHOTON_DEEP + (normal_depth & PHOTON_MOST_BEYOND), as_uint8(deep)) : depth;
+}
+
 // Lanes whose packed normal is close to the query's (or, for a lobe that transmits, to its opposite): n . m > c |m| for the
 // unnormalised octahedral m, c being `least`.
-static inline int8 on_same_side(uint8 packed, float3 normal, bool both_sides, float least)
+static inline int8 on_same_side(uint8 normal_depth, float3 normal, bool both_sides, float least)
 {
+    const uint8 packed = photon_normals(normal_depth);
     const float8 x = convert_float8(as_int8(packed & 0xfffu)) * (1.0f / 2048.0f) - (2047.5f / 2048.0f);
     const float8 y = convert_float8(as_int8((packed >> 12) & 0xfffu)) * (1.0f / 2048.0f) - (2047.5f / 2048.0f);
     const Offset8 m = unfold_octahedral(x, y);
@@ -42,9 +58,8 @@ static inline int8 on_same_side(uint8 packed, float3 normal, bool both_sides, fl
 // Lanes that the query asks for, whose photons make no path too long.
 static inline int8 wanted(uint8 normal_depth, const GatherQuery* query)
 {
-    const uint8 max_depth = (uint8)(min(query->max_photon_depth, PHOTON_MAX_DEPTH));
     int8 mask = on_same_side(normal_depth, unpack(query->normal), (query->flags & QUERY_BOTH_SIDES) != 0u, MIN_NORMAL_COSINE);
-    mask &= as_int8((normal_depth >> PHOTON_DEPTH_SHIFT) <= max_depth);
+    mask &= as_int8(photon_depths(normal_depth) <= query->max_photon_depth);
     if (query->flags & QUERY_UNREACHED_ONLY) mask &= as_int8((normal_depth & PHOTON_UNREACHED) != 0u);
     return mask;
 }

@@ -9,15 +9,18 @@ typedef struct Photon {
     Vec3 position;
     uint direction; // of propagation, packed
     Vec3 flux;      // W, not divided by the number of emitted subpaths; the BSDF here is not in it
-    uint normal_depth; // low 24 bits: packed normal on the side the light came from; then PHOTON_UNREACHED; high 7: edges so far
+    uint normal_depth; // the normal on the side the light came from, PHOTON_UNREACHED, and edges so far (density/photon_depth.h)
 } Photon;
 SHARED_SIZE(Photon, 32);
 
 // From a light that no path can hit, by specular surfaces alone: a camera path that is followed beyond the photon's
 // place cannot find it.
 #define PHOTON_UNREACHED (1u << 24)
+// The high 7 bits of normal_depth are the edges so far, and the low 24 the normal. Photons of PHOTON_DEEP edges or more are rare:
+// their high bits are PHOTON_DEEP, their low 24 the edges beyond that (14 bits), and a coarser normal above those.
 #define PHOTON_DEPTH_SHIFT 25u
-#define PHOTON_MAX_DEPTH 127u // deeper ones count as this deep
+#define PHOTON_DEEP 127u
+#define PHOTON_MOST_BEYOND 0x3fffu // deeper ones count as this deep: a path of albedo .999 keeps 1e-7 of its flux until then
 
 // Which photons light paths leave (-D PHOTONS_KEPT): all, those that specular and narrow lobes alone have scattered since
 // their light, or the others.

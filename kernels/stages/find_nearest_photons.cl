@@ -5,6 +5,7 @@
 #include "density/photon_lanes.h"
 #include "density/wanted_photons.h"
 #include "math/frame.h"
+#include "shared/path.h"
 #include "shared/relaxation.h"
 
 typedef struct NearestPhoton {
@@ -53,9 +54,9 @@ __kernel void find_nearest_photons(MAP_PARAMETERS, Relaxation relaxation, __glob
     const Photon photon = photons[index];
     GatherQuery query;
     query.position = photon.position;
-    query.normal = pack(unpack_normal(photon.normal_depth));
+    query.normal = pack(photon_normal(photon.normal_depth));
     query.flags = 0u;
-    query.max_photon_depth = PHOTON_MAX_DEPTH;
+    query.max_photon_depth = UNBOUNDED_DEPTH;
     NearestPhoton nearest = {unpack(photon.position), unpack_direction(photon.direction), &photon, &query, relaxation.least_cosine,
                              0.0f, NO_NEAREST_PHOTON};
     for (float radius = fmin(relaxation.first_radius, relaxation.largest_radius);; radius = fmin(2.0f * radius, relaxation.largest_radius)) {

@@ -1,6 +1,6 @@
 // Asks for light at photons, on their side: queries whose answer is the irradiance there. Reads `count` photons from `first` on;
 // writes queries, without radius beyond the photons' end. One work-item a query. Used by photonmapper.
-#include "math/frame.h"
+#include "density/photon_depth.h"
 #include "shared/path.h"
 #include "shared/photon.h"
 
@@ -13,7 +13,7 @@ __kernel void query_photons(__global const Photon* restrict photons, uint first,
     if (first + index < photon_count) {
         const Photon photon = photons[first + index];
         query.position = photon.position;
-        query.normal = pack(unpack_normal(photon.normal_depth));
+        query.normal = pack(photon_normal(photon.normal_depth));
         query.radius = radius;
     }
     queries[index] = query;

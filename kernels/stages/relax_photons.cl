@@ -16,6 +16,7 @@
 #include "density/wanted_photons.h"
 #include "math/frame.h"
 #include "math/luminance.h"
+#include "shared/path.h"
 #include "shared/relaxation.h"
 
 // Neighbours whose centroid is further off than this, in r, lie to one side. In even light it is further than c with the
@@ -165,13 +166,13 @@ __kernel void relax_photons(MAP_PARAMETERS, Relaxation relaxation, uint count, _
     if (index >= count) return;
     const PhotonMap map = MAP_VIEW;
     const Photon photon = photons[index];
-    const float3 normal = unpack_normal(photon.normal_depth);
+    const float3 normal = photon_normal(photon.normal_depth);
     const Frame frame = make_frame(normal);
     GatherQuery self;
     self.position = photon.position;
     self.normal = pack(normal);
     self.flags = 0u;
-    self.max_photon_depth = PHOTON_MAX_DEPTH;
+    self.max_photon_depth = UNBOUNDED_DEPTH;
     Neighbours neighbours;
     Neighbourhood near = {unpack(photon.position), unpack_direction(photon.direction), frame, &self, relaxation.least_cosine, 0.0f, &neighbours};
     for (float radius = fmin(relaxation.first_radius, relaxation.largest_radius);; radius = fmin(2.0f * radius, relaxation.largest_radius)) {

@@ -274,8 +274,9 @@ protected:
         expect_near("photon", path, photon.position, surface.position, point_error);
         expect_colour("flux", path, photon.flux, flux);
         EXPECT_LT(angle_between(unpacked_direction(photon.direction), -surface.outgoing), 1e-4 + direction_error) << "path " << path;
-        EXPECT_LT(angle_between(unpacked_normal(photon.normal_depth), surface.normal_seen()), 1.2e-3 + direction_error) << "path " << path;
-        EXPECT_EQ(photon.normal_depth >> PHOTON_DEPTH_SHIFT, std::min(vertex.path.depth, PHOTON_MAX_DEPTH)) << "path " << path;
+        const double normal_error = vertex.path.depth < PHOTON_DEEP ? 1.2e-3 : 0.12;
+        EXPECT_LT(angle_between(unpacked_normal(photon.normal_depth), surface.normal_seen()), normal_error + direction_error) << "path " << path;
+        EXPECT_EQ(depth_of(photon), std::min(vertex.path.depth, PHOTON_DEEP + PHOTON_MOST_BEYOND)) << "path " << path;
     }
 
     PlainNumbers camera_numbers(uint path) const { return PlainNumbers::camera(key_, path); }

@@ -18,7 +18,7 @@ std::vector<double> sorted_squares(const std::vector<Photon>& photons, const Gat
     std::vector<double> squares;
     for (const Photon& photon : photons) {
         if (dot(unpacked_normal(photon.normal_depth), Vec3d(query.normal)) < 0.7) continue;
-        if (photon.normal_depth >> PHOTON_DEPTH_SHIFT > query.max_photon_depth) continue;
+        if (depth_of(photon) > query.max_photon_depth) continue;
         if ((query.flags & QUERY_UNREACHED_ONLY) && !(photon.normal_depth & PHOTON_UNREACHED)) continue;
         const Vec3d offset = Vec3d(photon.position) - Vec3d(query.position);
         squares.push_back(dot(offset, offset));

@@ -65,10 +65,15 @@ TEST_P(ShadePhotonPath, WithoutDirectLightDoesAsPlainCode)
     follow(false);
 }
 
-// A photon has seven bits for its edges.
+// The seven bits that photons have for their edges do not hold those of some of these paths.
 TEST_P(ShadePhotonPath, LongPathsDoAsPlainCode)
 {
     follow(true, 124);
+}
+
+TEST_P(ShadePhotonPath, LongestPathsDoAsPlainCode)
+{
+    follow(true, PHOTON_DEEP + PHOTON_MOST_BEYOND - 2);
 }
 
 TEST_P(ShadePhotonPath, CausticPhotonsAreAsInPlainCode)

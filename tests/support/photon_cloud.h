@@ -27,16 +27,34 @@ inline uint packed_normal(Vec3d n)
     return cell(x) | (cell(y) << 12);
 }
 
+// As pack_normal_depth: of deep photons the upper five bits of each coordinate, and 14 bits for the edges.
+inline uint packed_normal_depth(Vec3d n, uint depth)
+{
+    const uint packed = packed_normal(n);
+    if (depth < 127) return packed | (depth << 25);
+    return std::min(depth - 127, 16383u) | ((packed >> 7) & 31) << 14 | (packed >> 19) << 19 | 127u << 25;
+}
+
+inline uint depth_of(const Photon& photon)
+{
+    const uint field = photon.normal_depth >> 25;
+    return field < 127 ? field : 127 + (photon.normal_depth & 16383);
+}
+
 inline Vec3d unpacked_normal(uint packed)
 {
-    const double x = ((packed & 0xfff) + 0.5) / 2048.0 - 1.0, y = (((packed >> 12) & 0xfff) + 0.5) / 2048.0 - 1.0;
+    double x = ((packed & 0xfff) + 0.5) / 2048.0 - 1.0, y = (((packed >> 12) & 0xfff) + 0.5) / 2048.0 - 1.0;
+    if (packed >> 25 == 127) {
+        x = (((packed >> 14) & 31) * 128 + 64.5) / 2048.0 - 1.0;
+        y = (((packed >> 19) & 31) * 128 + 64.5) / 2048.0 - 1.0;
+    }
     const double z = 1.0 - std::abs(x) - std::abs(y), fold = std::max(0.0, -z);
     return normalized(Vec3d(x - std::copysign(fold, x), y - std::copysign(fold, y), z));
 }
 
 inline Photon make_test_photon(Vec3 position, Vec3 flux, Vec3d normal = {0, 0, 1}, uint depth = 2)
 {
-    return {position, 0, flux, packed_normal(normal) | (depth << PHOTON_DEPTH_SHIFT)};
+    return {position, 0, flux, packed_normal_depth(normal, depth)};
 }
 
 inline GatherQuery make_test_query(Vec3 position, float radius, Vec3 normal = {0, 0, 1}, uint max_depth = UNBOUNDED_DEPTH)
@@ -58,7 +76,7 @@ inline BruteForce brute_force(const std::vector<Photon>& photons, const GatherQu
     for (const Photon& photon : photons) {
         const double t = length(Vec3d(photon.position) - Vec3d(query.position)) / query.radius;
         const double cosine = dot(unpacked_normal(photon.normal_depth), Vec3d(query.normal));
-        if (t > 1.0 + margin || cosine < 0.7 - 1e-4 || photon.normal_depth >> PHOTON_DEPTH_SHIFT > query.max_photon_depth) continue;
+        if (t > 1.0 + margin || cosine < 0.7 - 1e-4 || depth_of(photon) > query.max_photon_depth) continue;
         const bool certain = t < 1.0 - margin && cosine > 0.7 + 1e-4;
         result.most_count += 1.0;
         result.most_flux += photon.flux.x;

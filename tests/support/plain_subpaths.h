@@ -264,7 +264,7 @@ inline Vec3d plain_merging(const JoinableVertex& vertex, const std::vector<Photo
     Vec3d sum;
     for (std::size_t i = 0; i < photons.size(); ++i) {
         const double t = length(Vec3d(photons[i].position) - Vec3d(vertex.record.position)) / radius;
-        if (t > 1.0 + Doubt::rounding || !allows(rules, vertex.record.depth + (photons[i].normal_depth >> PHOTON_DEPTH_SHIFT))) continue;
+        if (t > 1.0 + Doubt::rounding || !allows(rules, vertex.record.depth + depth_of(photons[i]))) continue;
         if (!doubt.less(0.7, dot(unpacked_normal(photons[i].normal_depth), vertex.surface.normal_seen()))) continue;
         if (!doubt.less(t, 1.0)) continue;
         const Vec3d direction = -unpacked_direction(photons[i].direction);
