@@ -32,11 +32,13 @@ void PhotonTracer::trace_once(const DeviceScene& scene, PathPool& pool, SamplerK
 std::size_t PhotonTracer::trace(const DeviceScene& scene, PathPool& pool, SamplerKey key, Buffer<Photon>& deposits)
 {
     assert(deposits.size() >= settings_.paths);
+    const std::uint64_t rays_before = pool.rays_traced();
     trace_once(scene, pool, key, deposits);
     std::size_t stored = photons_.read_count();
     if (stored > photons_.capacity()) {
         // Paths are a pure function of the key: the same photons come again, with room for all.
         photons_.grow(stored);
+        pool.uncount_rays_since(rays_before);
         trace_once(scene, pool, key, deposits);
         stored = photons_.read_count();
     }

@@ -75,8 +75,8 @@ void LightSubpaths::trace(const DeviceScene& scene, const CameraPaths& camera, P
                                Techniques techniques)
 {
     // Subpaths are a pure function of the numbers: where there was no room the same ones come again.
-    while (!trace_once(scene, camera, pool, numbers, techniques)) {
-    }
+    const std::uint64_t rays_before = pool.rays_traced();
+    while (!trace_once(scene, camera, pool, numbers, techniques)) pool.uncount_rays_since(rays_before);
 }
 
 void LightSubpaths::serialize(StateArchive& archive)

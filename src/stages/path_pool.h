@@ -35,6 +35,8 @@ public:
     bool keep_alive();
 
     std::uint64_t rays_traced() const { return rays_traced_; }
+    // Where a pass has to run again, for lack of room: its rays, those since rays_traced() was `before`, are to count once.
+    void uncount_rays_since(std::uint64_t before) { rays_traced_ = before; }
     std::size_t capacity() const { return capacity_; }
 
     // Of what outlives an iteration there is only the count.

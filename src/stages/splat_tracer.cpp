@@ -29,8 +29,11 @@ void SplatTracer::trace_once(const DeviceScene& scene, CameraPaths& camera, Path
 
 void SplatTracer::trace(const DeviceScene& scene, CameraPaths& camera, PathPool& pool, SamplerKey key)
 {
-    do trace_once(scene, camera, pool, key); // the same key gives the same splats again
-    while (!splats_.complete());
+    const std::uint64_t rays_before = pool.rays_traced();
+    do {
+        pool.uncount_rays_since(rays_before);
+        trace_once(scene, camera, pool, key); // the same key gives the same splats again
+    } while (!splats_.complete());
     splats_.add_to(camera.radiance);
 }
 
