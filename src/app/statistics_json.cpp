@@ -50,7 +50,8 @@ nlohmann::ordered_json statistics_json(const RenderStatistics& statistics, doubl
         json["mutations"] = statistics.counters.mutations;
         json["mutations_accepted"] = statistics.counters.mutations_accepted;
     }
-    json["seconds"] = nlohmann::ordered_json::object();
+    // Null: not known.
+    json["seconds"] = statistics.stage_seconds.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json::object();
     for (const auto& [stage, seconds] : statistics.stage_seconds) json["seconds"][stage] = seconds;
     json["render_seconds"] = statistics.render_seconds;
     json["wall_seconds"] = wall_seconds;

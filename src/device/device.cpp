@@ -41,6 +41,7 @@ Device::State::State(const DeviceInfo& device_info, const cl::Device& cl_device)
     check(code, "clCreateContext", "the renderer", *this);
     queue = cl::CommandQueue(context, device, CL_QUEUE_PROFILING_ENABLE, &code);
     check(code, "clCreateCommandQueue", "the renderer", *this);
+    profile.start_clock();
 }
 
 Device::State::~State()

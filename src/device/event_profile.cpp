@@ -1,6 +1,10 @@
 #include "device/event_profile.h"
 
+#include "device/device_state.h"
+
 #include <fmt/format.h>
+
+#include <chrono>
 
 namespace sundog
 {
@@ -11,6 +15,11 @@ namespace
 // Finished events are looked for when so many are waiting, and waited for when the host is too far ahead.
 constexpr std::size_t fold_at = 64;
 constexpr std::size_t wait_at = 512;
+
+double host_now()
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 } // namespace
 
@@ -54,6 +63,33 @@ std::vector<StageTime> EventProfile::stages()
     return stages_;
 }
 
+// By the end of a command that does nothing. A driver that tells no time of such a one is believed to go as the host does.
+double EventProfile::device_now()
+{
+    cl::Event marker;
+    cl_ulong end = 0;
+    if (device_.queue.enqueueMarkerWithWaitList(nullptr, &marker) != CL_SUCCESS || marker.wait() != CL_SUCCESS ||
+        marker.getProfilingInfo(CL_PROFILING_COMMAND_END, &end) != CL_SUCCESS || end == 0)
+        return host_now();
+    return double(end) * 1e-9;
+}
+
+void EventProfile::start_clock()
+{
+    std::lock_guard lock(mutex_);
+    const double device = device_now();
+    clock_.start(device, host_now());
+    busy_ = 0.0;
+}
+
+bool EventProfile::tells_seconds()
+{
+    std::lock_guard lock(mutex_);
+    fold_all();
+    const double device = device_now();
+    return clock_.tells_seconds(device, host_now(), busy_);
+}
+
 double EventProfile::build_seconds() const
 {
     std::lock_guard lock(mutex_);
@@ -74,13 +110,15 @@ std::uint64_t EventProfile::programs_loaded() const
 
 void EventProfile::reset()
 {
-    std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     fold_all();
     stages_.clear();
     index_.clear();
     build_seconds_ = 0.0;
     programs_built_ = 0;
     programs_loaded_ = 0;
+    lock.unlock();
+    start_clock();
 }
 
 std::size_t EventProfile::stage_index(const std::string& label)
@@ -114,7 +152,9 @@ void EventProfile::fold_front()
     StageTime& stage = stages_[done.stage];
     cl_int status = done.event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
     if (status < CL_COMPLETE) throw_opencl_error(status, "execution", fmt::format("stage '{}'", stage.label), device_);
-    stage.seconds += event_seconds(done.event);
+    const double seconds = event_seconds(done.event);
+    stage.seconds += seconds;
+    busy_ += seconds;
     ++stage.launches;
 }
 

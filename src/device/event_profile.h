@@ -1,6 +1,7 @@
 // The profile of a device: OpenCL events, folded into sums per label.
 #pragma once
 
+#include "device/event_clock.h"
 #include "device/opencl.h"
 #include "device/profile.h"
 
@@ -25,7 +26,11 @@ public:
     void add_build_seconds(double seconds);
     void add_program(double seconds, bool from_cache);
 
+    // Starts to compare the device's clock with the host's; once the queue is there.
+    void start_clock();
+
     std::vector<StageTime> stages() override;
+    bool tells_seconds() override;
     double build_seconds() const override;
     std::uint64_t programs_built() const override;
     std::uint64_t programs_loaded() const override;
@@ -37,6 +42,7 @@ private:
         cl::Event event;
     };
 
+    double device_now();
     std::size_t stage_index(const std::string& label);
     void fold_finished();
     void fold_all();
@@ -47,6 +53,8 @@ private:
     std::vector<StageTime> stages_;
     std::unordered_map<std::string, std::size_t> index_;
     std::deque<Pending> pending_;
+    EventClock clock_;
+    double busy_ = 0.0; // since the clock was started
     double build_seconds_ = 0.0;
     std::uint64_t programs_built_ = 0;
     std::uint64_t programs_loaded_ = 0;

@@ -20,6 +20,8 @@ class Profile
 public:
     virtual ~Profile() = default;
     virtual std::vector<StageTime> stages() = 0; // waits for the device; in order of first launch
+    // Whether seconds of stages mean seconds, as far as the host can tell; waits. On some drivers they do not.
+    virtual bool tells_seconds() = 0;
     // Building or loading programs, and generating code at first launches.
     virtual double build_seconds() const = 0;
     virtual std::uint64_t programs_built() const = 0;  // from source

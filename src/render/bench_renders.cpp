@@ -4,6 +4,8 @@
 #include "device/profile.h"
 #include "render/session.h"
 
+#include <limits>
+
 namespace sundog {
 
 namespace {
@@ -74,6 +76,7 @@ RenderFigures bench_render(Device& device, const Scene& scene, const std::string
     for (int i = 0; i < iterations; i++) session.iterate();
     const double wall = timer.seconds();
     double kernels = 0.0;
+    if (!device.profile().tells_seconds()) kernels = std::numeric_limits<double>::quiet_NaN(); // not known
     for (const StageTime& stage : device.profile().stages()) kernels += stage.seconds;
     figures.iterations_per_second = iterations / wall;
     figures.host_share = 1.0 - kernels / wall;
