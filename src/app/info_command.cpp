@@ -7,6 +7,7 @@
 #include "base/timer.h"
 #include "import/mitsuba_xml.h"
 #include "import/scene_writer.h"
+#include "scene/photon_spread.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -170,7 +171,8 @@ ExitStatus info(const InfoOptions& options)
     check_dump(options);
     const LoadedScene loaded = load_scene(options.scene, load);
     const SceneSummary summary = summarize(loaded.scene);
-    const LoadReport report{loaded.warnings, timer.seconds(), peak_host_bytes()};
+    LoadReport report{loaded.warnings, timer.seconds(), peak_host_bytes()};
+    if (const auto spread = warn_of_spread_photons(loaded.scene)) report.warnings.emplace_back(*spread);
     if (!options.dump.empty()) dump(loaded.scene, options.dump);
     if (options.dump == "-") return ExitStatus::done;
     if (options.json) print_json(summary, report);
