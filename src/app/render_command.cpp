@@ -130,6 +130,7 @@ RenderPlan make_plan(const RenderOptions& options)
     if (options.texture_memory) plan.load.texture_bytes = parse_megabytes("--texture-memory", *options.texture_memory);
     plan.settings.method = options.method;
     plan.settings.parameters = parse_assignments("--param", options.parameters);
+    plan.settings.stop_requested = interrupt_requested;
     if (options.seed) plan.settings.seed = parse_count("--seed", *options.seed);
     if (!options.size.empty()) plan.settings.size = parse_size(options.size);
     if (!options.method.empty() && !find_method(options.method)) throw UsageError("unknown method \"" + options.method + "\"; sundog methods lists them");
@@ -259,7 +260,12 @@ IterationsEnd iterate(RenderSession& session, const RenderPlan& plan, std::optio
     };
     // At least one, so that there is an image.
     while (session.iterations_done() == 0 || (!finished() && !interrupt_requested())) {
-        session.iterate();
+        try {
+            session.iterate();
+        } catch (const Interrupted&) {
+            if (session.iterations_done() == 0) throw;
+            break;
+        }
         error.update(session, progress);
         progress.update(session.iterations_done(), timer.seconds());
         checkpoints.update(session);
@@ -298,6 +304,7 @@ std::string joined(const std::vector<std::filesystem::path>& paths)
 void log_statistics(const RenderStatistics& statistics)
 {
     if (statistics.invalid_samples > 0) log_warning(fmt::format("{} invalid samples (NaN or infinite) were kept out of the image", statistics.invalid_samples));
+    if (statistics.stage_seconds.empty()) log_debug("seconds of stages: not known, the driver's times do not agree with the clock");
     for (const auto& [stage, seconds] : statistics.stage_seconds) log_debug(fmt::format("{:8.3f} s  {}", seconds, stage));
     log_debug(fmt::format("kernels ready in {:.2f} s, peak device memory {:.1f} MB", statistics.kernel_build_seconds,
                           static_cast<double>(statistics.peak_device_bytes) * 1e-6));

@@ -1,7 +1,15 @@
 // Ctrl-C and SIGTERM: stop in order, with what was done saved.
 #pragma once
 
+#include "base/errors.h"
+
 namespace sundog {
+
+// The render was asked to stop in the middle of an iteration, and did.
+class Interrupted : public Error {
+public:
+    Interrupted() : Error(ExitStatus::interrupted, "interrupted before the first iteration was done: there is no image to save") {}
+};
 
 // Until defer_interrupts(), a signal ends the process at once with status 130: nothing has been rendered
 // that could be saved.

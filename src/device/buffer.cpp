@@ -26,7 +26,7 @@ constexpr std::size_t small_alignment = 64;
 [[noreturn]] void throw_out_of_memory(const Device::State& device, const std::string& label, std::size_t bytes, cl_int code)
 {
     const std::string cause = code == CL_SUCCESS ? "" : ": " + opencl_error_name(code);
-    throw DeviceError(fmt::format("out of memory on device '{}': buffer '{}' needs {}{}; {}; render a smaller film, use fewer photons "
+    throw OutOfDeviceMemory(fmt::format("out of memory on device '{}': buffer '{}' needs {}{}; {}; render a smaller film, use fewer photons "
                                   "per iteration, or choose another device with --device",
                                   device.info.name, label, format_bytes(bytes), cause, device.memory.describe()));
 }

@@ -1,6 +1,8 @@
 // How much device memory Sundog holds, against what there is.
 #pragma once
 
+#include "base/errors.h"
+
 #include <atomic>
 #include <cstdint>
 #include <string>
@@ -29,6 +31,13 @@ private:
     const std::uint64_t largest_buffer_;
     std::atomic<std::uint64_t> allocated_ = 0;
     std::atomic<std::uint64_t> peak_ = 0;
+};
+
+// A buffer does not fit.
+class OutOfDeviceMemory : public DeviceError
+{
+public:
+    using DeviceError::DeviceError;
 };
 
 // "512 B", "1.5 MiB": binary units, one decimal.

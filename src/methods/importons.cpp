@@ -17,7 +17,8 @@ ParameterSpec importons_spec()
         "Camera paths traced ahead to find where photons matter; elsewhere nine in ten are left out (Peter and Pietrek 1998). 0: all stay.",
         0,
         4e9,
-        {}};
+        {},
+        sizeof(Photon)};
 }
 
 std::unique_ptr<ImportanceMap> trace_importons(RenderContext& context, const Parameters& parameters, std::uint64_t& rays)
@@ -31,7 +32,7 @@ std::unique_ptr<ImportanceMap> trace_importons(RenderContext& context, const Par
     QueryTracer visible(device, scene, camera.count(), query_rules(parameters), false, sampler_kind(parameters));
     FinalGather gather(device, scene, camera.count(), query_rules(parameters), sampler_kind(parameters));
     const std::size_t passes = (wanted + camera.count() - 1) / camera.count();
-    const float radius = global_lookup(context, parameters, light_path_count(parameters, camera.count())).radius;
+    const float radius = global_lookup(context, parameters, global_path_count(parameters, camera.count())).radius;
     auto importance = std::make_unique<ImportanceMap>(device, scene, camera.count(), 2 * passes * camera.count(), radius);
     for (std::size_t pass = 0; pass < passes; pass++) {
         const SamplerKey key = sampler_key(context.seed, (std::uint64_t(2) << 32) + pass); // beyond all iterations'

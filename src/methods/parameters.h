@@ -23,6 +23,8 @@ struct ParameterSpec {
     double minimum = 0.0; // inclusive, numbers only
     double maximum = 0.0;
     std::vector<std::string> choices; // choice only
+    double device_bytes = 0.0; // integers only: that each of so many takes at least, or of so many a pixel
+    bool is_per_pixel = false;
 };
 
 // Who set a value: wrong values are usage errors on the command line, scene errors in a file.

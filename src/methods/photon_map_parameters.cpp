@@ -1,5 +1,7 @@
 #include "methods/photon_map_parameters.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +15,8 @@ namespace
 // Photons that a lookup of automatic radius should find, and pixels that a caustic's radius may span.
 constexpr double usual_photons = 50.0;
 constexpr double caustic_pixels = 4.0;
+// Light subpaths of a map on a small film: their lookups have a third of the radius of a sphere around the scene.
+constexpr std::size_t least_paths = 2048;
 // How far k photons are searched, as a multiple of the radius that would hold them if light were even.
 constexpr double search_limit = 2.0;
 
@@ -24,10 +28,13 @@ PhotonLookup make_lookup(const Parameters& parameters, const std::string& radius
     if (parameters.text("lookup") == "nearest") lookup.nearest = static_cast<uint>(parameters.integer("nearest"));
     const double photons = lookup.nearest > 0 ? lookup.nearest : usual_photons;
     const double by_density = 2.0 * static_cast<double>(scene_radius) * std::sqrt(photons / static_cast<double>(light_paths));
-    const double automatic = lookup.nearest > 0 ? search_limit * by_density : std::min(by_density, largest);
-    lookup.radius = static_cast<float>(parameters.real(radius) > 0.0 ? parameters.real(radius) : automatic);
+    const double by_count = lookup.nearest > 0 ? search_limit * by_density : std::min(by_density, largest);
+    const double automatic = std::min(by_count, largest_automatic_radius(scene_radius));
+    const double asked = asked_radius(parameters, radius, scene_radius);
+    lookup.radius = static_cast<float>(asked > 0.0 ? asked : automatic);
     lookup.usual_radius = std::min(lookup.radius, static_cast<float>(by_density));
     lookup.density_kernel = density_kernel(parameters);
+    lookup.relaxed = parameters.integer("relaxation") > 0 || parameters.boolean("relaxation_progressive");
     return lookup;
 }
 
@@ -52,6 +59,11 @@ ParameterSpec maps_spec()
         {"one", "fresh"}};
 }
 
+std::size_t global_path_count(const Parameters& parameters, std::size_t pixels)
+{
+    return light_path_count(parameters, std::max(pixels, least_paths));
+}
+
 bool has_fresh_maps(const Parameters& parameters)
 {
     return parameters.text("maps") == "fresh";
@@ -60,7 +72,8 @@ bool has_fresh_maps(const Parameters& parameters)
 ParameterSpec global_photons_spec()
 {
     ParameterSpec spec = photons_spec();
-    spec.description = "Light subpaths of the global map; 0: one a pixel.";
+    spec.device_bytes = 0.0; // light subpaths go in batches: what they leave counts (traced_photons.cpp)
+    spec.description = fmt::format("Light subpaths of the global map; 0: one a pixel, at least {}.", least_paths);
     return spec;
 }
 
@@ -76,6 +89,7 @@ ParameterSpec global_radius_spec()
 ParameterSpec caustic_photons_spec()
 {
     ParameterSpec spec = photons_spec();
+    spec.device_bytes = 0.0; // light subpaths go in batches: what they leave counts (traced_photons.cpp)
     spec.name = "caustic_photons";
     spec.description = "Light subpaths of the caustic map; 0: four times those of the global map.";
     return spec;
@@ -107,7 +121,7 @@ ParameterSpec nearest_spec()
             ParameterType::integer,
             "50",
             "photons",
-            "k of lookup=nearest: the k - 1 photons that are nearer than the k-th count, over the area within it.",
+            "k of lookup=nearest: the k - 1 photons that are nearer than the k-th count, and half of it in relaxed maps, over the area within it.",
             2,
             512,
             {}};

@@ -22,6 +22,9 @@ ParameterSpec precompute_spec();
 ParameterSpec save_map_spec();
 ParameterSpec load_map_spec();
 
+// Light subpaths of the global map: `photons`, or one a pixel, but never so few that its automatic radius would blur the whole scene.
+std::size_t global_path_count(const Parameters& parameters, std::size_t pixels);
+
 bool has_fresh_maps(const Parameters& parameters);
 
 // light_paths: emitted for the map.

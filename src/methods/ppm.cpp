@@ -158,7 +158,9 @@ const MethodRegistration registration({
                                  "Points that each pixel sees, found before the first iteration.",
                                  1,
                                  256,
-                                 {}},
+                                 {},
+                                 sizeof(GatherQuery) + sizeof(ProgressivePixel),
+                                 true},
                    max_depth_spec(), rr_depth_spec(1, "light subpaths, by albedo"), sampler_spec(), spectral_spec(), iterations_spec()},
     .follows_motion = false,
     .create = [](RenderContext& context, const Parameters& parameters) -> std::unique_ptr<Method> {

@@ -15,7 +15,9 @@ namespace
 {
 
 // Enough at a time to keep a device busy, few enough for each to be long.
-constexpr std::size_t most_default_chains = 16384;
+constexpr std::size_t least_default_chains = 256, most_default_chains = 16384;
+// Samples for each chain to start from. Few chains take them in many batches, so that fewer must do; large steps add to what they say.
+constexpr std::size_t seeds_per_chain = 64, least_default_seeds = 4096, most_default_seeds = 100000;
 // A path of more vertices goes on with numbers that are independent in each mutation, which its chain does not remember.
 constexpr uint most_vertices = 16;
 
@@ -27,7 +29,13 @@ bool is_bidirectional(const Parameters& parameters)
 std::size_t chain_count(const Parameters& parameters, std::size_t pixels)
 {
     const std::int64_t chains = parameters.integer("chains");
-    return chains > 0 ? static_cast<std::size_t>(chains) : std::min(pixels, most_default_chains);
+    return chains > 0 ? static_cast<std::size_t>(chains) : std::clamp(pixels, least_default_chains, most_default_chains);
+}
+
+std::size_t seed_count(const Parameters& parameters, std::size_t chains)
+{
+    const std::int64_t seeds = parameters.integer("seeds");
+    return seeds > 0 ? static_cast<std::size_t>(seeds) : std::clamp(seeds_per_chain * chains, least_default_seeds, most_default_seeds);
 }
 
 // One mutation a pixel and iteration, or one of each chain where they are more.
@@ -49,7 +57,7 @@ class PrimarySampleMetropolis final : public Method
 public:
     PrimarySampleMetropolis(RenderContext& context, const Parameters& parameters, std::optional<RegularizationSchedule> schedule)
         : context_(context), schedule_(schedule), pixels_(context.film.pixel_count()), settings_(chain_settings(parameters, pixels_, context.seed)),
-          seeds_(static_cast<std::size_t>(parameters.integer("seeds"))), bidirectional_(is_bidirectional(parameters)),
+          seeds_(seed_count(parameters, settings_.chains)), bidirectional_(is_bidirectional(parameters)),
           camera_(context.device, context.camera, context.filter, SamplerKind::sobol, context.scene.surface_options()),
           pool_(context.device, context.scene, std::max(pixels_, settings_.chains)), chains_(context.device, settings_),
           paths_((bidirectional_ ? make_bidirectional_sample_paths : make_camera_sample_paths)(
@@ -61,10 +69,10 @@ public:
 
     void render_pass(std::uint64_t iteration) override
     {
+        if (schedule_) regularize(iteration);
+        if (!chains_.started()) start_chains(); // or throws Interrupted, with nothing of this iteration done
         camera_.start(context_.scene, pool_, sampler_key(context_.seed, iteration));
         camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
-        if (schedule_) regularize(iteration);
-        if (!chains_.started()) start_chains();
         if (chains_.started()) {
             for (uint step = 0; step < settings_.steps; step++) mutate(iteration * settings_.steps + step);
             add_splats();
@@ -119,8 +127,14 @@ private:
 
     void start_chains()
     {
-        const bool found =
-            chains_.start(seeds_, [this]() -> const Buffer<float>& { return paths_->trace(context_.scene, pool_, chains_); });
+        const std::uint64_t rays_before = pool_.rays_traced();
+        const auto stop_if_asked = [&] {
+            if (!is_interrupted(context_)) return;
+            pool_.uncount_rays_since(rays_before);
+            throw Interrupted();
+        };
+        const bool found = chains_.start(
+            seeds_, [this]() -> const Buffer<float>& { return paths_->trace(context_.scene, pool_, chains_); }, stop_if_asked);
         if (found)
             leave_splats(0);
         else
@@ -180,18 +194,20 @@ std::vector<ParameterSpec> chain_specs()
           ParameterType::integer,
           "0",
           "chains",
-          "Markov chains side by side; 0: one a pixel, at most 16384. An iteration mutates each so often that there is one mutation a "
+          "Markov chains side by side; 0: one a pixel, from 256 to 16384. An iteration mutates each so often that there is one mutation a "
           "pixel or more.",
           0,
           1e8,
-          {}},
+          {},
+          sizeof(MarkovChain) + sizeof(PathState) + sizeof(Ray) + sizeof(Hit) + 32.0 * BLOCKS_PER_VERTEX},
          {"large_step", ParameterType::real, "0.3", "", "Probability of a mutation that forgets the chain's state.", 0.01, 1.0, {}},
          {"seeds",
           ParameterType::integer,
-          "100000",
+          "0",
           "samples",
-          "Independent samples before the first iteration, which say how bright the image is and where chains start.",
-          1,
+          "Independent samples before the first iteration, which say how bright the image is and where chains start; 0: 64 for each chain, "
+          "from 4096 to 100000.",
+          0,
           1e8,
           {}}};
 }

@@ -1,5 +1,8 @@
 #include "methods/standard_parameters.h"
 
+#include "shared/photon.h"
+#include "shared/ray.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +16,8 @@ namespace {
 constexpr double unlimited = 1e15;
 // Photons that a query should find in the first iteration.
 constexpr double target_photons = 10.0;
+// Of a path under way, with its ray, hit and state, and of a photon that it leaves.
+constexpr double path_bytes = sizeof(Ray) + sizeof(Hit) + sizeof(PathState) + sizeof(Photon);
 
 } // namespace
 
@@ -47,7 +52,7 @@ ParameterSpec sampler_spec()
 
 ParameterSpec photons_spec()
 {
-    return {"photons", ParameterType::integer, "0", "light subpaths", "Light subpaths traced in each iteration; 0: one a pixel.", 0, 4e9, {}};
+    return {"photons", ParameterType::integer, "0", "light subpaths", "Light subpaths traced in each iteration; 0: one a pixel.", 0, 4e9, {}, path_bytes};
 }
 
 ParameterSpec radius_spec()
@@ -155,13 +160,28 @@ float pixel_footprint(const Camera& camera, const Bounds& scene)
     return distance * width;
 }
 
+double asked_radius(const Parameters& parameters, const std::string& name, float scene_radius)
+{
+    const double radius = parameters.real(name), least = std::max(0x1p-24 * static_cast<double>(scene_radius), 1e-12);
+    if (radius > 0.0 && radius < least)
+        parameters.refuse(name, fmt::format("{0}={1:g} is below what single precision tells apart in this scene, whose radius is {2:g}: give at least "
+                                            "{3:.2g}, or 0 for an automatic one",
+                                            name, radius, scene_radius, least));
+    return radius;
+}
+
+double largest_automatic_radius(float scene_radius)
+{
+    return 0.4 * static_cast<double>(scene_radius);
+}
+
 float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths, float pixel_footprint, double target_pixels)
 {
-    const double radius = parameters.real("radius");
-    if (radius > 0.0) return static_cast<float>(radius);
+    if (const double radius = asked_radius(parameters, "radius", scene_radius); radius > 0.0) return static_cast<float>(radius);
     // N photons on a sphere of radius R: N r^2 / (4 R^2) of them lie within r.
     const double by_density = 2.0 * static_cast<double>(scene_radius) * std::sqrt(target_photons / static_cast<double>(light_paths));
-    return static_cast<float>(std::min(by_density, target_pixels * static_cast<double>(pixel_footprint)));
+    return static_cast<float>(
+        std::min({by_density, target_pixels * static_cast<double>(pixel_footprint), largest_automatic_radius(scene_radius)}));
 }
 
 double scheduled_radius(double first_radius, double alpha, int dimensions, std::uint64_t iteration)

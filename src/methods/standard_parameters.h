@@ -43,8 +43,17 @@ float pixel_footprint(const Camera& camera, const Bounds& scene);
 // Pixels across a query's radius at most: a larger one blurs what a longer render would have to sharpen again.
 constexpr double usual_target_pixels = 4.0;
 
-// `radius`, or, when that is 0, the smaller of two: one within which a query finds a handful of photons if they
-// spread evenly over a sphere around the scene, and a few pixels. Both scale with the scene.
+// What the user asks for as the radius `name`, or 0 where it is to be automatic. Refuses one below what single precision tells apart in
+// a scene of this radius: whatever lies within it lies in one place.
+double asked_radius(const Parameters& parameters, const std::string& name, float scene_radius);
+
+// Of radii that nobody asked for, as few light subpaths or large pixels would have them. Photons count for a query where normals differ by
+// less than 45.6 degrees (density/wanted_photons.h), which on a sphere is within .77 of its radius, .45 of that of the sphere
+// around its box: up to there a disk finds all that lies in it.
+double largest_automatic_radius(float scene_radius);
+
+// `radius`, or, when that is 0, the smallest of largest_automatic_radius() and two others: one within which a query finds a handful
+// of photons if they spread evenly over a sphere around the scene, and a few pixels. All scale with the scene.
 float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths, float pixel_footprint,
                      double target_pixels = usual_target_pixels);
 

@@ -1,9 +1,13 @@
 #include "methods/traced_photons.h"
 
 #include "base/atomic_file.h"
+#include "device/device.h"
+#include "device/memory_account.h"
 #include "methods/importons.h"
 #include "methods/photon_map_file.h"
-#include "methods/standard_parameters.h"
+#include "methods/photon_map_parameters.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -30,12 +34,12 @@ PhotonMapOrigin origin_of(const RenderContext& context, const Parameters& parame
 std::size_t caustic_path_count(const Parameters& parameters, std::size_t pixels)
 {
     const std::int64_t photons = parameters.integer("caustic_photons");
-    return photons > 0 ? static_cast<std::size_t>(photons) : 4 * light_path_count(parameters, pixels);
+    return photons > 0 ? static_cast<std::size_t>(photons) : 4 * global_path_count(parameters, pixels);
 }
 
 PhotonTracerSettings global_settings(const RenderContext& context, const Parameters& parameters)
 {
-    PhotonTracerSettings settings{light_path_count(parameters, context.film.pixel_count()), path_rules(parameters), false,
+    PhotonTracerSettings settings{global_path_count(parameters, context.film.pixel_count()), path_rules(parameters), false,
                                   sampler_kind(parameters), PhotonsKept::scattered};
     // What is gathered is all the light that arrives.
     if (parameters.boolean("final_gather")) settings.kept = PhotonsKept::all;
@@ -61,8 +65,8 @@ PhotonTracerSettings of_a_batch(PhotonTracerSettings settings)
 
 } // namespace
 
-MapTracer::MapTracer(RenderContext& context, const PhotonTracerSettings& settings, uint map_number)
-    : context_(context), batches_(batch_count(settings)), settings_(of_a_batch(settings)), map_number_(map_number),
+MapTracer::MapTracer(RenderContext& context, const Parameters& parameters, const PhotonTracerSettings& settings, uint map_number)
+    : context_(context), parameters_(parameters), batches_(batch_count(settings)), settings_(of_a_batch(settings)), map_number_(map_number),
       tracer_(context.device, context.scene, settings_), deposits_(context.device, settings_.paths, "photon deposits")
 {
 }
@@ -72,23 +76,37 @@ TracedPhotons MapTracer::trace(PathPool& pool, std::uint64_t set, ImportanceMap*
     TracedPhotons traced;
     const std::uint64_t rays_before = pool.rays_traced();
     for (std::size_t batch = 0; batch < batches_; batch++) {
+        if (is_interrupted(context_)) throw Interrupted();
         // Batches and sets continue the points of one sequence; above 2^32 another begins (kernels/math/sampler.h).
         const SamplerKey key = sampler_key(context_.seed, (static_cast<std::uint64_t>(map_number_) << 32) + set * batches_ + batch);
         const std::size_t stored = tracer_.trace(context_.scene, pool, key, deposits_);
         const std::vector<Photon> photons =
             importance ? importance->thin(tracer_.photons(), stored, key) : tracer_.photons().records().download(0, stored);
         traced.photons.insert(traced.photons.end(), photons.begin(), photons.end());
+        if (batch == 0) refuse_beyond_memory(photons.size());
     }
     traced.light_paths = light_paths();
     traced.rays = pool.rays_traced() - rays_before;
     return traced;
 }
 
+// Batches of the same map leave much the same number of photons.
+void MapTracer::refuse_beyond_memory(std::size_t photons_of_first_batch) const
+{
+    const double bytes = sizeof(Photon) * static_cast<double>(photons_of_first_batch) * static_cast<double>(batches_);
+    const double memory = static_cast<double>(context_.device.info().memory_bytes);
+    if (bytes <= memory || batches_ == 1) return;
+    const std::string name = settings_.kept == PhotonsKept::caustic ? "caustic_photons" : "photons";
+    parameters_.refuse(name, fmt::format("{}={} would leave some {} of photons on a device that has {}; give a smaller number", name,
+                                         parameters_.text(name), format_bytes(static_cast<std::uint64_t>(bytes)),
+                                         format_bytes(static_cast<std::uint64_t>(memory))));
+}
+
 MapPhotonTracer::MapPhotonTracer(RenderContext& context, const Parameters& parameters)
-    : context_(context), parameters_(parameters), global_(context, global_settings(context, parameters), 0)
+    : context_(context), parameters_(parameters), global_(context, parameters, global_settings(context, parameters), 0)
 {
     const PhotonTracerSettings settings = caustic_settings(context, parameters);
-    if (!settings.direct_light_elsewhere || context.scene.has_focused_light()) caustic_.emplace(context, settings, 1);
+    if (!settings.direct_light_elsewhere || context.scene.has_focused_light()) caustic_.emplace(context, parameters, settings, 1);
     pool_.emplace(context.device, context.scene, std::max(global_.batch_size(), caustic_ ? caustic_->batch_size() : 0));
 }
 

@@ -24,7 +24,7 @@ struct TracedPhotons {
 class MapTracer
 {
 public:
-    MapTracer(RenderContext& context, const PhotonTracerSettings& settings, uint map_number);
+    MapTracer(RenderContext& context, const Parameters& parameters, const PhotonTracerSettings& settings, uint map_number);
 
     // A pure function of the seed, the map's number and `set`: sets of photons independent of each other. With `importance` only
     // those that survive by it. The pool holds batch_size() paths.
@@ -34,7 +34,10 @@ public:
     std::uint64_t light_paths() const { return batches_ * settings_.paths; } // of a set
 
 private:
+    void refuse_beyond_memory(std::size_t photons_of_first_batch) const;
+
     RenderContext& context_;
+    Parameters parameters_;
     std::size_t batches_;
     PhotonTracerSettings settings_; // of a batch
     uint map_number_;

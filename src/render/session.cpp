@@ -4,11 +4,13 @@
 #include "base/log.h"
 #include "base/timer.h"
 #include "device/profile.h"
+#include "methods/memory_demand.h"
 #include "methods/render_context.h"
 #include "methods/standard_parameters.h"
 #include "render/checkpoint.h"
 #include "scene/fingerprint.h"
 #include "scene/flat_scene.h"
+#include "scene/photon_spread.h"
 #include "shared/film.h"
 #include "stages/scene_motion.h"
 
@@ -136,11 +138,12 @@ struct RenderSession::State {
           device_scene(device, scene, is_spectral(parameters), light_selection(parameters)), camera(make_camera(scene.sensor, scene.film)),
           filter(make_pixel_filter(scene.film.filter)), film(make_film(device, scene.film, info, parameters, settings)),
           motion(device_scene, scene, camera, seed),
-          spectral(device, device_scene, seed), context{device, device_scene, camera, filter, film, spectral, seed, [this] { return light_fingerprint(flatten_scene(scene)); }},
-          method(info.create(context, parameters))
+          spectral(device, device_scene, seed), context{device, device_scene, camera, filter, film, spectral, seed, [this] { return light_fingerprint(flatten_scene(scene)); }, settings.stop_requested},
+          method(create_method(info, context, parameters))
     {
         warn_of_dispersion();
         warn_of_beams();
+        warn_of_photons();
     }
 
     void warn_of_dispersion() const
@@ -158,6 +161,13 @@ struct RenderSession::State {
             if (std::holds_alternative<CollimatedEmitter>(emitter.model))
                 log_warning(fmt::format("{}{} has no paths from lights, so this collimated emitter stays dark: choose sppm (-m sppm)",
                                         emitter.where.prefix(), info.name));
+    }
+
+    void warn_of_photons() const
+    {
+        const bool traces_photons = parameters.has("photons") && !(parameters.has("paths") && parameters.text("paths") != "bdpt");
+        if (!traces_photons) return;
+        if (const auto spread = warn_of_spread_photons(scene)) log_warning(*spread);
     }
 
     Scene scene;
@@ -199,6 +209,10 @@ RenderIdentity RenderSession::State::identity()
 RenderProgress RenderSession::State::progress()
 {
     RenderProgress progress{device.info().name, iterations, seconds, resumed.stage_seconds};
+    if (!device.profile().tells_seconds()) {
+        progress.stage_seconds.clear();
+        return progress;
+    }
     for (const StageTime& stage : device.profile().stages()) {
         auto& sums = progress.stage_seconds;
         const auto known = std::find_if(sums.begin(), sums.end(), [&](const auto& sum) { return sum.first == stage.label; });

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,6 +29,7 @@ struct RenderSettings {
     std::optional<std::uint64_t> seed; // else the scene's
     std::optional<std::pair<int, int>> size; // film size in pixels, instead of the scene's
     std::optional<ErrorSettings> errors;
+    std::function<bool()> stop_requested; // asked in the middle of long iterations; empty: they are not stopped
 };
 
 struct RenderStatistics {
@@ -40,7 +42,7 @@ struct RenderStatistics {
     MethodCounters counters;
     double render_seconds = 0.0; // wall time in iterate()
     double kernel_build_seconds = 0.0;
-    std::vector<std::pair<std::string, double>> stage_seconds; // label, device time
+    std::vector<std::pair<std::string, double>> stage_seconds; // label, device time; none where the driver's times are wrong
     std::uint64_t peak_device_bytes = 0;
     std::optional<RelativeError> error; // where it is estimated
     double error_confidence = 0.0; // of its bound
@@ -61,7 +63,8 @@ public:
     RelativeError relative_error() const;
     const MethodInfo& method() const;
 
-    // Renders one iteration and waits for it.
+    // Renders one iteration and waits for it. Throws Interrupted where the settings' stop_requested says so in the middle of it: it
+    // does not count then, and all that was done before can be saved.
     void iterate();
     std::uint64_t iterations_done() const; // with those of a checkpoint
 

@@ -37,12 +37,16 @@ MarkovChains::MarkovChains(Device& device, const MarkovChainSettings& settings)
       propose_mutations_(device, "propose_mutations", "Propose mutations"), propose_seeds_(device, "propose_seeds", "Propose seeds"),
       count_used_numbers_(device, "count_used_numbers", "Count used numbers"), start_chains_(device, "start_chains", "Start chains"),
       accept_mutations_(device, "accept_mutations", "Accept mutations"), renumber_samples_(device, "renumber_samples", "Renumber samples"),
-      chains_(device, std::vector<MarkovChain>(settings.chains), "Markov chains"),
-      coordinates_(device, std::vector<uint>(settings.chains * 2 * stored_blocks_ * 4), "chain coordinates"),
+      chains_(device, settings.chains, "Markov chains"),
+      coordinates_(device, settings.chains * 2 * stored_blocks_ * 4, "chain coordinates"),
       seed_numbers_(device, settings.chains, "seed numbers"),
       weights_(device, settings.chains * (1 + std::size_t(settings.steps)), "sample weights"),
-      tallies_(device, std::vector<ChainTally>(settings.chains), "chain tallies")
+      tallies_(device, settings.chains, "chain tallies")
 {
+    // Once all are there: the host has no more memory than the device.
+    chains_.upload(std::vector<MarkovChain>(settings.chains));
+    coordinates_.fill(0u);
+    tallies_.upload(std::vector<ChainTally>(settings.chains));
     weights_.fill({0.0f, 0.0f});
 }
 
@@ -55,11 +59,12 @@ void MarkovChains::propose_seeds(std::vector<uint> numbers)
     propose_seeds_(count, key_, seed_numbers_, count, chains_);
 }
 
-bool MarkovChains::start(std::size_t seeds, const std::function<const Buffer<float>&()>& evaluate)
+bool MarkovChains::start(std::size_t seeds, const std::function<const Buffer<float>&()>& evaluate, const std::function<void()>& before_batch)
 {
     std::vector<float> contributions;
     const uint first = static_cast<uint>(seeds_);
     while (contributions.size() < seeds) {
+        before_batch();
         const std::size_t batch = std::min(settings_.chains, seeds - contributions.size());
         std::vector<uint> numbers(batch);
         std::iota(numbers.begin(), numbers.end(), first + static_cast<uint>(contributions.size()));

@@ -35,8 +35,9 @@ public:
 
     // Starts the chains from `seeds` independent samples, chosen in proportion to what they contribute. evaluate: makes paths of
     // what is proposed, calls count_used_numbers() for each stream that they use, and returns their contributions by chain.
-    // False: none contributed, and the chains wait for another call, with other seeds. Waits.
-    bool start(std::size_t seeds, const std::function<const Buffer<float>&()>& evaluate);
+    // False: none contributed, and the chains wait for another call, with other seeds. before_batch: may throw, which leaves all as
+    // it was. Waits.
+    bool start(std::size_t seeds, const std::function<const Buffer<float>&()>& evaluate, const std::function<void()>& before_batch = [] {});
     bool started() const { return reference_ > 0.0; }
 
     // Before another start(), where contributions become others: states and mean() so far mean nothing then.
