@@ -4,8 +4,7 @@
 // what evens out is noise. Structure stays as far as a photon's neighbours show it:
 // - where light grows to one side, the centroid c of the neighbours lies there. A linear gradient g has c = g r^2 / 4 and by
 //   the mean above pushes photons down by g r^2 / 12, so that sweeps would blur the light like heat; c / 3 more, and they
-//   feel no gradient. In even light c is noise, r / (2 sqrt K) along either axis, and c / 3 would undo much of what a sweep
-//   is for: it counts from A_GRADIENT r on;
+//   feel no gradient;
 // - where they lie to one side, as at the edge of a caustic or of a surface, it does not move to the other;
 // - where they lie along a line, it moves along that alone.
 // With -D EQUAL_FLUX=1 [Spencer and Jones 2013, ACM TOG 32(1), Progressive Photon Relaxation] neighbour k pushes with the weight
@@ -23,10 +22,6 @@
 // Neighbours whose centroid is further off than this, in r, lie to one side. In even light it is further than c with the
 // probability exp(-2 K c^2), 1 in 18: those photons are held back for a sweep.
 #define ONE_SIDED (1.2f * rsqrt((float)NEIGHBOURS))
-// A centroid that is nearer than this, in r, shows no gradient.
-#ifndef A_GRADIENT
-#define A_GRADIENT (0.5f * rsqrt((float)NEIGHBOURS))
-#endif
 // Their variances along both axes: below this ratio they lie along a line.
 #define ALONG_A_LINE 0.2f
 // Fewer than this show nothing.
@@ -157,7 +152,7 @@ static inline float2 displacement(const Neighbours* neighbours)
     }
     away /= (float)neighbours->count;
     centroid /= (float)neighbours->count;
-    if (dot(centroid, centroid) > A_GRADIENT * A_GRADIENT * r * r) away += centroid * (1.0f / 3.0f); // no force of a gradient
+    away += centroid * (1.0f / 3.0f); // no force of a gradient
     const float2 line = line_of(neighbours);
     if (line.x != 0.0f || line.y != 0.0f) away = line * dot(away, line);
     const float outwards = -dot(away, centroid);

@@ -5,32 +5,13 @@
 namespace sundog
 {
 
-namespace
-{
-
-// Of relaxed photons the k-th is at the disk's edge not by chance alone.
-bool counts_half(const PhotonLookup& lookup)
-{
-    return lookup.relaxed && lookup.nearest > 1;
-}
-
-} // namespace
-
-float kernel_at_edge(int density_kernel)
-{
-    constexpr float cone = (1.0f - 1.0f / 1.1f) / (1.0f - 2.0f / 3.3f); // (kernels/density/kernels.h)
-    constexpr float gaussian = 0.473f;
-    constexpr float edges[] = {1.0f, 0.0f, 0.0f, 0.0f, cone, gaussian};
-    return edges[density_kernel];
-}
-
 FixedPhotonMap::FixedPhotonMap(Device& device, const DeviceScene& scene, std::size_t capacity, const PhotonLookup& lookup,
                                const std::vector<Photon>& photons, std::uint64_t light_paths, bool sorts_again)
     : lookup_(lookup), inverse_paths_(1.0f / static_cast<float>(light_paths)), map_(device, scene.bounds()),
       records_(std::in_place, device, "photons", std::max<std::size_t>(photons.size(), 1)),
       gather_(device, capacity, "estimators/radiance_estimate.h", lookup.density_kernel,
               scene.has_lobes_to_evaluate() ? std::optional(scene.surface_options()) : std::nullopt, lookup.nearest > 0),
-      add_gathered_(device, counts_half(lookup) ? "add_relaxed" : "add_gathered", "Add gathered light")
+      add_gathered_(device, "add_gathered", "Add gathered light")
 {
     records_->assign(photons);
     if (lookup.nearest > 0) {
@@ -60,12 +41,7 @@ void FixedPhotonMap::add_radiance(Buffer<GatherQuery>& queries, const Buffer<Lob
     else
         set_radii_(count, lookup_.radius, count, queries);
     gather_.gather(map_, queries, lobes, count);
-    if (counts_half(lookup_)) {
-        const float scale = 1.0f + 0.5f * kernel_at_edge(lookup_.density_kernel) / static_cast<float>(lookup_.nearest - 1);
-        add_gathered_(count, queries, gather_.sums, count, inverse_paths_, lookup_.radius, scale, radiance);
-    } else {
-        add_gathered_(count, queries, gather_.sums, count, inverse_paths_, radiance);
-    }
+    add_gathered_(count, queries, gather_.sums, count, inverse_paths_, radiance);
 }
 
 } // namespace sundog

@@ -13,11 +13,7 @@ struct PhotonLookup {
     uint nearest = 0;          // k > 0: as near as the k-th photon, which does not count itself; 0: within the radius
     float usual_radius = 0.0f; // where the search for k begins
     int density_kernel = 0;    // as DENSITY_KERNEL
-    bool relaxed = false;      // the photons keep away from each other (photon_relaxation.h)
 };
-
-// What a smoothing kernel is at the edge of the disk, over its mean there: 1 of the uniform one.
-float kernel_at_edge(int density_kernel);
 
 class FixedPhotonMap
 {

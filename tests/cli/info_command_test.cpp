@@ -145,4 +145,17 @@ TEST_F(CliInfo, warnings_come_in_groups)
     EXPECT_GT(json["host_bytes"], json["scene_bytes"]);
 }
 
+// Once, by info as by a render that traces photons; path has none that could be too few.
+TEST_F(CliInfo, photons_spread_over_a_huge_ground_are_told_of)
+{
+    SmallScene scene;
+    scene.extra = R"(<shape type="rectangle"><transform name="to_world"><scale value="500"/><translate z="-2"/></transform></shape>
+<emitter type="directional"><vector name="direction" x="0" y="0" z="-1"/></emitter>)";
+    write("scene.xml", scene.xml());
+    const auto told = ::testing::ContainsRegex("scene.xml:[0-9]+: photons of distant lights .* shows 1/[0-9]+ of it: fewer than one photon in a thousand");
+    EXPECT_THAT(run({"info", "scene.xml"}).out, told);
+    EXPECT_THAT(run({"render", "scene.xml", "-m", "sppm", "-n", "1", "-o", "a.pfm"}).err, told);
+    EXPECT_THAT(run({"render", "scene.xml", "-m", "path", "-n", "1", "-o", "a.pfm"}).err, ::testing::Not(told));
+}
+
 } // namespace

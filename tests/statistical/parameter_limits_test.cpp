@@ -100,6 +100,6 @@ std::vector<std::string> names_of_methods()
     return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, ParameterLimits, testing::ValuesIn(names_of_methods()), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Methods, ParameterLimits, testing::ValuesIn(names_of_methods()), [](const auto& test) { return test.param; });
 
 } // namespace

@@ -45,8 +45,8 @@ inline Vec3d unpacked_normal(uint packed)
 {
     double x = ((packed & 0xfff) + 0.5) / 2048.0 - 1.0, y = (((packed >> 12) & 0xfff) + 0.5) / 2048.0 - 1.0;
     if (packed >> 25 == 127) {
-        x = (((packed >> 14) & 31) + 0.5) / 16.0 - 1.0;
-        y = (((packed >> 19) & 31) + 0.5) / 16.0 - 1.0;
+        x = (((packed >> 14) & 31) * 128 + 64.5) / 2048.0 - 1.0;
+        y = (((packed >> 19) & 31) * 128 + 64.5) / 2048.0 - 1.0;
     }
     const double z = 1.0 - std::abs(x) - std::abs(y), fold = std::max(0.0, -z);
     return normalized(Vec3d(x - std::copysign(fold, x), y - std::copysign(fold, y), z));

@@ -86,7 +86,7 @@ TEST(PhotonSpread, IsFineInEveryShippedScene)
     for (const char* folder : {"gallery", "analytic"})
         for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() / "scenes" / folder)) {
             if (entry.path().extension() != ".xml") continue;
-            EXPECT_EQ(warn_of_spread_photons(load_scene(entry.path()).scene), std::nullopt) << entry.path();
+            EXPECT_EQ(warn_of_spread_photons(load_scene(entry.path(), {}).scene), std::nullopt) << entry.path();
         }
 }
 
