@@ -25,7 +25,8 @@ PhotonLookup make_lookup(const Parameters& parameters, const std::string& radius
     const double photons = lookup.nearest > 0 ? lookup.nearest : usual_photons;
     const double by_density = 2.0 * static_cast<double>(scene_radius) * std::sqrt(photons / static_cast<double>(light_paths));
     const double automatic = lookup.nearest > 0 ? search_limit * by_density : std::min(by_density, largest);
-    lookup.radius = static_cast<float>(parameters.real(radius) > 0.0 ? parameters.real(radius) : automatic);
+    const double given = given_radius(parameters, radius, scene_radius);
+    lookup.radius = static_cast<float>(given > 0.0 ? given : automatic);
     lookup.usual_radius = std::min(lookup.radius, static_cast<float>(by_density));
     lookup.density_kernel = density_kernel(parameters);
     return lookup;

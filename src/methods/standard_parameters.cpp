@@ -155,9 +155,20 @@ float pixel_footprint(const Camera& camera, const Bounds& scene)
     return distance * width;
 }
 
+double given_radius(const Parameters& parameters, const std::string& name, float scene_radius)
+{
+    constexpr double resolution = 1e-7, smallest = 1e-15; // of coordinates; whose square is a normal number, also after shrinking
+    const double radius = parameters.real(name), least = std::max(resolution * static_cast<double>(scene_radius), smallest);
+    if (radius > 0.0 && radius < least)
+        parameters.refuse(name, fmt::format("{}={:g} is less than 32-bit coordinates of this scene can tell apart: give at least {:.1g}, or 0 for an "
+                                            "automatic radius",
+                                            name, radius, least));
+    return radius;
+}
+
 float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths, float pixel_footprint, double target_pixels)
 {
-    const double radius = parameters.real("radius");
+    const double radius = given_radius(parameters, "radius", scene_radius);
     if (radius > 0.0) return static_cast<float>(radius);
     // N photons on a sphere of radius R: N r^2 / (4 R^2) of them lie within r.
     const double by_density = 2.0 * static_cast<double>(scene_radius) * std::sqrt(target_photons / static_cast<double>(light_paths));

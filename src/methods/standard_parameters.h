@@ -43,6 +43,10 @@ float pixel_footprint(const Camera& camera, const Bounds& scene);
 // Pixels across a query's radius at most: a larger one blurs what a longer render would have to sharpen again.
 constexpr double usual_target_pixels = 4.0;
 
+// A parameter that is a radius, 0 where it is left to the method. Refuses one below what single-precision coordinates of a scene of
+// that radius tell apart: no photon would ever be within, and its square could be 0.
+double given_radius(const Parameters& parameters, const std::string& name, float scene_radius);
+
 // `radius`, or, when that is 0, the smaller of two: one within which a query finds a handful of photons if they
 // spread evenly over a sphere around the scene, and a few pixels. Both scale with the scene.
 float initial_radius(const Parameters& parameters, float scene_radius, std::size_t light_paths, float pixel_footprint,
