@@ -6,7 +6,6 @@
 #include "import/integrator_import.h"
 #include "import/sensor_import.h"
 #include "import/shape_import.h"
-#include "import/texture_budget.h"
 #include "scene/validate.h"
 
 namespace sundog
@@ -15,7 +14,7 @@ namespace sundog
 namespace
 {
 
-void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
+void import_objects(const XmlScene& xml, const SceneIndex& index, std::uint64_t texture_bytes, Scene& scene)
 {
     ObjectReader root(xml.root, index);
 
@@ -26,13 +25,14 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
 
     if (const auto integrator = root.single("integrator")) import_integrator(*integrator->object, index, scene.integrator);
 
-    TextureImporter textures(index, scene.textures);
+    TextureImporter textures(index, scene.textures, texture_bytes);
     BsdfImporter bsdfs(index, textures, scene.bsdfs);
     InstanceImporter instances(index, bsdfs, textures, scene);
     for (const auto& shape : root.nested("shape"))
         if (!instances.import(*shape.object)) import_shape(*shape.object, index, bsdfs, textures, scene);
     instances.finish();
     for (const auto& emitter : root.nested("emitter")) scene.emitters.push_back(import_emitter(*emitter.object, index, textures));
+    textures.bitmaps().warn_of_scaled_down();
 
     // Declared for those who refer to them, who complain about what they cannot use.
     for (const char* tag : {"bsdf", "texture", "medium", "volume", "phase"}) root.nested(tag);
@@ -47,8 +47,7 @@ LoadedScene load_scene(const std::filesystem::path& file, const LoadOptions& opt
     loaded.scene.file = file.string();
     const XmlScene xml = read_scene_xml(file, options.defines, loaded.warnings);
     const SceneIndex index(xml, loaded.warnings);
-    import_objects(xml, index, loaded.scene);
-    fit_texture_budget(loaded.scene, options.texture_bytes, loaded.warnings);
+    import_objects(xml, index, options.texture_bytes, loaded.scene);
     validate_scene(loaded.scene, loaded.warnings);
     return loaded;
 }

@@ -29,6 +29,7 @@ public:
     {
         warnings_.emplace_back(where.prefix() + message, kind);
     }
+    void warn(Warning warning) const { warnings_.push_back(std::move(warning)); }
     bool legacy() const { return scene_.legacy; }
 
 private:
