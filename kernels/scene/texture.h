@@ -10,8 +10,14 @@ static inline float srgb_decode(float encoded)
     return encoded <= 0.04045f ? encoded * (1.0f / 12.92f) : native_powr((encoded + 0.055f) * (1.0f / 1.055f), 2.4f);
 }
 
+// In place of a texel's number where there is none.
+#define TEXEL_ZERO 0xffffffffu
+#define TEXEL_ONE 0xfffffffeu
+
 static inline float3 read_texel(const SurfaceView* scene, const Texture* texture, uint x, uint y)
 {
+    const uint farther = max(x, y);
+    if (farther >= TEXEL_ONE) return (float3)((x >= TEXEL_ONE ? x : y) == TEXEL_ONE ? 1.0f : 0.0f);
     const size_t index = (size_t)y * texture->width + x;
     if (texture->format == TEXELS_HALF) return vload_half4(0, (__global const half*)(scene->texels + texture->first_texel + 2u * index)).xyz;
     if (texture->format == TEXELS_FLOAT) return vload3(0, (__global const float*)(scene->texels + texture->first_texel + 3u * index));
@@ -25,6 +31,7 @@ static inline float3 read_texel(const SurfaceView* scene, const Texture* texture
 static inline uint wrap_texel(int i, int size, uint wrap)
 {
     if (wrap == WRAP_CLAMP) return (uint)clamp(i, 0, size - 1);
+    if (wrap >= WRAP_ZERO && (i < 0 || i >= size)) return wrap == WRAP_ONE ? TEXEL_ONE : TEXEL_ZERO;
     const int period = wrap == WRAP_MIRROR ? 2 * size : size;
     int inside = i % period;
     if (inside < 0) inside += period;
@@ -40,8 +47,8 @@ static inline float2 bitmap_slope(const SurfaceView* scene, const Texture* textu
     const float2 corner = floor(point - 0.5f);
     const float2 t = point - 0.5f - corner;
     const int x = (int)corner.x, y = (int)corner.y;
-    const uint x0 = wrap_texel(x, width, texture->wrap), x1 = wrap_texel(x + 1, width, texture->wrap);
-    const uint y0 = wrap_texel(y, height, texture->wrap), y1 = wrap_texel(y + 1, height, texture->wrap);
+    const uint x0 = wrap_texel(x, width, texture->wrap_u), x1 = wrap_texel(x + 1, width, texture->wrap_u);
+    const uint y0 = wrap_texel(y, height, texture->wrap_v), y1 = wrap_texel(y + 1, height, texture->wrap_v);
     const float a = dot(read_texel(scene, texture, x0, y0), LUMINANCE_WEIGHTS), b = dot(read_texel(scene, texture, x1, y0), LUMINANCE_WEIGHTS);
     const float c = dot(read_texel(scene, texture, x0, y1), LUMINANCE_WEIGHTS), d = dot(read_texel(scene, texture, x1, y1), LUMINANCE_WEIGHTS);
     return size * (float2)(mix(b - a, d - c, t.y), mix(c - a, d - b, t.x));
@@ -55,12 +62,12 @@ static inline float3 read_bitmap(const SurfaceView* scene, const Texture* textur
     const float2 limit = (float2)(1e9f / (float)width, 1e9f / (float)height);
     const float2 point = clamp(uv, -limit, limit) * (float2)((float)width, (float)height);
     if (texture->filter == FILTER_NEAREST)
-        return read_texel(scene, texture, wrap_texel((int)floor(point.x), width, texture->wrap), wrap_texel((int)floor(point.y), height, texture->wrap));
+        return read_texel(scene, texture, wrap_texel((int)floor(point.x), width, texture->wrap_u), wrap_texel((int)floor(point.y), height, texture->wrap_v));
     const float2 corner = floor(point - 0.5f);
     const float2 t = point - 0.5f - corner;
     const int x = (int)corner.x, y = (int)corner.y;
-    const uint x0 = wrap_texel(x, width, texture->wrap), x1 = wrap_texel(x + 1, width, texture->wrap);
-    const uint y0 = wrap_texel(y, height, texture->wrap), y1 = wrap_texel(y + 1, height, texture->wrap);
+    const uint x0 = wrap_texel(x, width, texture->wrap_u), x1 = wrap_texel(x + 1, width, texture->wrap_u);
+    const uint y0 = wrap_texel(y, height, texture->wrap_v), y1 = wrap_texel(y + 1, height, texture->wrap_v);
     const float3 above = mix(read_texel(scene, texture, x0, y0), read_texel(scene, texture, x1, y0), t.x);
     const float3 below = mix(read_texel(scene, texture, x0, y1), read_texel(scene, texture, x1, y1), t.x);
     return mix(above, below, t.y);
@@ -79,6 +86,13 @@ static inline float3 read_attribute(const SurfaceView* scene, const Texture* tex
            unpack(scene->attribute_values[range.base + triangle.vertex[1]]) * b.x + unpack(scene->attribute_values[range.base + triangle.vertex[2]]) * b.y;
 }
 
+static inline float3 clamp_to_range(float3 value, uint range)
+{
+    if (range == RANGE_UNIT) return clamp(value, 0.0f, 1.0f);
+    if (range == RANGE_POSITIVE) return fmax(value, 0.0f);
+    return value;
+}
+
 // A checkerboard's fields may be textures themselves: the loop follows them, with the value so far.
 static inline float3 textured_color(const SurfaceView* scene, TexturedColor color, const Surface* surface)
 {
@@ -88,8 +102,8 @@ static inline float3 textured_color(const SurfaceView* scene, TexturedColor colo
         const float3 place = (float3)(surface->uv, 1.0f);
         const float2 uv = (float2)(dot((float3)(texture.to_u[0], texture.to_u[1], texture.to_u[2]), place),
                                    dot((float3)(texture.to_v[0], texture.to_v[1], texture.to_v[2]), place));
-        if (texture.type == TEXTURE_BITMAP) return value * read_bitmap(scene, &texture, uv);
-        if (texture.type == TEXTURE_ATTRIBUTE) return value * read_attribute(scene, &texture, surface);
+        if (texture.type == TEXTURE_BITMAP) return clamp_to_range(value * read_bitmap(scene, &texture, uv), texture.range);
+        if (texture.type == TEXTURE_ATTRIBUTE) return clamp_to_range(value * read_attribute(scene, &texture, surface), texture.range);
         const bool left = uv.x - floor(uv.x) > 0.5f, low = uv.y - floor(uv.y) > 0.5f;
         color = texture.colors[left == low ? 0 : 1];
         value *= unpack(color.value);

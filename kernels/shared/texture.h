@@ -33,9 +33,16 @@ SHARED_SIZE(TexturedNumber, 8);
 #define WRAP_REPEAT 0u
 #define WRAP_MIRROR 1u
 #define WRAP_CLAMP 2u
+#define WRAP_ZERO 3u // outside of the image all is 0
+#define WRAP_ONE 4u  // or 1
 
 #define FILTER_NEAREST 0u
 #define FILTER_BILINEAR 1u
+
+// What a texture's value, times its factor, is clamped to.
+#define RANGE_ANY 0u
+#define RANGE_POSITIVE 1u // 0 and more
+#define RANGE_UNIT 2u     // 0 to 1
 
 typedef struct Texture {
     uint type;
@@ -43,12 +50,13 @@ typedef struct Texture {
     uint height;
     uint first_texel; // its place in `texels`, in uints
     uint format;
-    uint wrap;
+    uint wrap_u;
     uint filter;
     uint attribute; // TEXTURE_ATTRIBUTE: its number among the scene's attributes
     float to_u[3];  // u' = to_u . (u, v, 1)
     float to_v[3];
-    Vec2 unused;
+    uint wrap_v;
+    uint range;
     TexturedColor colors[2];
 } Texture;
 SHARED_SIZE(Texture, 96);

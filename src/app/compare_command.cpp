@@ -33,7 +33,7 @@ std::vector<std::pair<std::string, double>> parse_limits(const std::vector<std::
 ExitStatus compare(const CompareOptions& options)
 {
     const auto limits = parse_limits(options.limits);
-    const ImageDifference difference = compare_images(read_image(options.image), read_image(options.reference), options.image, options.reference);
+    const ImageDifference difference = compare_files(options.image, options.reference);
     for (const auto& [name, value] : difference.all()) std::cout << fmt::format("{}: {:.9g}\n", name, value);
 
     ExitStatus status = ExitStatus::done;

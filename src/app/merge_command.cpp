@@ -27,7 +27,10 @@ ExitStatus merge(const MergeOptions& options)
     if (!can_encode(ImageFormat::exr))
         throw FileError("merge needs .exr parts, whose metadata say how they were rendered; this build of Sundog knows .pfm only, which holds none");
     ImageMerger merger;
-    for (const std::string& part : options.parts) merger.add(read_image(part), part);
+    for (const std::string& part : options.parts) {
+        merger.check(read_image_header(part), part);
+        merger.add(read_image(part), part);
+    }
     write_image(options.output, merger.result(), exposure_stops);
     log_info(fmt::format("merged {} {} into {} ({} iterations, seeds {})", options.parts.size(), options.parts.size() == 1 ? "part" : "parts", options.output,
                          merger.iterations(), merger.seeds()));

@@ -1,11 +1,16 @@
 #include "film/compare.h"
 
 #include "base/errors.h"
-#include "film/image_codec.h"
+#include "film/image_io.h"
+#include "math/srgb.h"
+#include "scene/color_channels.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
 
 namespace sundog {
 
@@ -13,10 +18,100 @@ namespace {
 
 constexpr double relmse_floor = 0.01; // the contract's; keeps black pixels finite
 
-[[noreturn]] void refuse_pixel(const std::filesystem::path& file, int x, int y, float value)
+void check_sizes(int width, int height, int reference_width, int reference_height, const std::filesystem::path& image_file,
+                 const std::filesystem::path& reference_file)
 {
-    throw FileError(fmt::format("{}: pixel ({}, {}) is {}; only finite images can be compared", file.string(), x, y, value));
+    if (width != reference_width || height != reference_height)
+        throw FileError(fmt::format("{} is {}x{} but {} is {}x{}; compare images of one size", image_file.string(), width, height, reference_file.string(),
+                                    reference_width, reference_height));
 }
+
+// Linear colours of a row's samples.
+void read_colors(std::span<const float> samples, std::size_t channels, const ColorChannels& color, bool encoded, std::vector<Vec3>& row)
+{
+    row.clear();
+    const auto linear = [&](float value) { return encoded ? linear_from_srgb(value) : value; };
+    const auto [r, g, b] = color.index;
+    for (std::size_t i = 0; i < samples.size(); i += channels)
+        row.push_back(color.color({linear(samples[i + r]), linear(samples[i + g]), linear(samples[i + b])}));
+}
+
+// Linear colours of a file's rows.
+class ColorRows {
+public:
+    explicit ColorRows(const std::filesystem::path& path)
+        : file_(open_image_file(path)), color_(color_channels(file_->header().channels, path)), encoded_(holds_srgb(file_->header()))
+    {
+    }
+
+    int width() const { return file_->header().width; }
+    int height() const { return file_->header().height; }
+    void read(std::vector<Vec3>& row)
+    {
+        read_colors(file_->next_row(), file_->header().channels.size(), color_, encoded_, row);
+    }
+
+private:
+    std::unique_ptr<ImageFile> file_;
+    ColorChannels color_;
+    bool encoded_;
+};
+
+class DifferenceSums {
+public:
+    DifferenceSums(const std::filesystem::path& image_file, const std::filesystem::path& reference_file)
+        : image_file_(image_file), reference_file_(reference_file)
+    {
+    }
+
+    // Sums by row first: keeps the rounding of large images at the level of one row's.
+    void add_row(std::span<const Vec3> image, std::span<const Vec3> reference)
+    {
+        double squares = 0, relative = 0, absolute = 0, sum_a = 0, sum_b = 0;
+        for (std::size_t x = 0; x < image.size(); ++x) {
+            check_finite(image[x], x, image_file_);
+            check_finite(reference[x], x, reference_file_);
+            for (const auto channel : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+                const double a = image[x].*channel, b = reference[x].*channel, d = a - b;
+                squares += d * d;
+                relative += d * d / (b * b + relmse_floor);
+                absolute += std::abs(d);
+                sum_a += a;
+                sum_b += b;
+            }
+        }
+        squares_ += squares;
+        relative_ += relative;
+        absolute_ += absolute;
+        sum_a_ += sum_a;
+        sum_b_ += sum_b;
+        count_ += 3.0 * static_cast<double>(image.size());
+        y_++;
+    }
+
+    ImageDifference difference() const
+    {
+        ImageDifference difference;
+        difference.mse = squares_ / count_;
+        difference.rmse = std::sqrt(difference.mse);
+        difference.relmse = relative_ / count_;
+        difference.mae = absolute_ / count_;
+        difference.mean_ratio = sum_a_ == sum_b_ ? 1.0 : sum_a_ / sum_b_;
+        return difference;
+    }
+
+private:
+    void check_finite(Vec3 color, std::size_t x, const std::filesystem::path& file) const
+    {
+        for (const float value : {color.x, color.y, color.z})
+            if (!std::isfinite(value))
+                throw FileError(fmt::format("{}: pixel ({}, {}) is {}; only finite images can be compared", file.string(), x, y_, value));
+    }
+
+    std::filesystem::path image_file_, reference_file_;
+    double squares_ = 0, relative_ = 0, absolute_ = 0, sum_a_ = 0, sum_b_ = 0, count_ = 0;
+    int y_ = 0;
+};
 
 } // namespace
 
@@ -35,44 +130,35 @@ std::optional<double> ImageDifference::find(const std::string& metric) const
 ImageDifference compare_images(const Image& image, const Image& reference, const std::filesystem::path& image_file,
                                const std::filesystem::path& reference_file)
 {
-    if (image.width != reference.width || image.height != reference.height)
-        throw FileError(fmt::format("{} is {}x{} but {} is {}x{}; compare images of one size", image_file.string(), image.width, image.height,
-                                    reference_file.string(), reference.width, reference.height));
-    const RgbChannels rgb_a = rgb_channels(image, image_file), rgb_b = rgb_channels(reference, reference_file);
-    const std::array<std::pair<int, int>, 3> channels{{{rgb_a.r, rgb_b.r}, {rgb_a.g, rgb_b.g}, {rgb_a.b, rgb_b.b}}};
-
-    // Sums by row first: keeps the rounding of large images at the level of one row's.
-    double squares = 0, relative = 0, absolute = 0, sum_a = 0, sum_b = 0;
+    check_sizes(image.width, image.height, reference.width, reference.height, image_file, reference_file);
+    const ColorChannels color_a = color_channels(image.channels, image_file), color_b = color_channels(reference.channels, reference_file);
+    DifferenceSums sums(image_file, reference_file);
+    std::vector<Vec3> row_a, row_b;
+    const auto read = [](const Image& from, int y, const ColorChannels& color, std::vector<Vec3>& row) {
+        const std::size_t samples = static_cast<std::size_t>(from.width) * from.channels.size();
+        const auto in_row = std::span(from.pixels).subspan(static_cast<std::size_t>(y) * samples, samples);
+        read_colors(in_row, from.channels.size(), color, false, row);
+    };
     for (int y = 0; y < image.height; ++y) {
-        double row_squares = 0, row_relative = 0, row_absolute = 0, row_a = 0, row_b = 0;
-        for (int x = 0; x < image.width; ++x) {
-            for (const auto& [channel_a, channel_b] : channels) {
-                const float value_a = image.at(x, y, channel_a), value_b = reference.at(x, y, channel_b);
-                if (!std::isfinite(value_a)) refuse_pixel(image_file, x, y, value_a);
-                if (!std::isfinite(value_b)) refuse_pixel(reference_file, x, y, value_b);
-                const double a = value_a, b = value_b, d = a - b;
-                row_squares += d * d;
-                row_relative += d * d / (b * b + relmse_floor);
-                row_absolute += std::abs(d);
-                row_a += a;
-                row_b += b;
-            }
-        }
-        squares += row_squares;
-        relative += row_relative;
-        absolute += row_absolute;
-        sum_a += row_a;
-        sum_b += row_b;
+        read(image, y, color_a, row_a);
+        read(reference, y, color_b, row_b);
+        sums.add_row(row_a, row_b);
     }
+    return sums.difference();
+}
 
-    const double count = 3.0 * image.width * image.height;
-    ImageDifference difference;
-    difference.mse = squares / count;
-    difference.rmse = std::sqrt(difference.mse);
-    difference.relmse = relative / count;
-    difference.mae = absolute / count;
-    difference.mean_ratio = sum_a == sum_b ? 1.0 : sum_a / sum_b;
-    return difference;
+ImageDifference compare_files(const std::filesystem::path& image_file, const std::filesystem::path& reference_file)
+{
+    ColorRows image(image_file), reference(reference_file);
+    check_sizes(image.width(), image.height(), reference.width(), reference.height(), image_file, reference_file);
+    DifferenceSums sums(image_file, reference_file);
+    std::vector<Vec3> row_a, row_b;
+    for (int y = 0; y < image.height(); ++y) {
+        image.read(row_a);
+        reference.read(row_b);
+        sums.add_row(row_a, row_b);
+    }
+    return sums.difference();
 }
 
 } // namespace sundog

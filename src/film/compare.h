@@ -24,8 +24,11 @@ struct ImageDifference {
     std::optional<double> find(const std::string& metric) const; // nullopt: no such metric
 };
 
-// Throws FileError, with the files' names, when the sizes differ or a value is NaN or infinite.
+// Throws FileError, with the files' names, when the sizes differ, an image has no colour, or a value is NaN or infinite.
 ImageDifference compare_images(const Image& image, const Image& reference, const std::filesystem::path& image_file = "image",
                                const std::filesystem::path& reference_file = "reference");
+
+// The same of two files, which are read row by row. Throws FileError also for what cannot be read.
+ImageDifference compare_files(const std::filesystem::path& image_file, const std::filesystem::path& reference_file);
 
 } // namespace sundog

@@ -25,6 +25,5 @@ Image decode_pfm(std::string_view bytes, const std::filesystem::path& file);
 // What the build's image library adds (image_codec_oiio.cpp, image_codec_minimal.cpp).
 bool can_encode(ImageFormat format);
 std::string encode(ImageFormat format, const Image& image, RgbChannels rgb, float exposure_stops, const std::filesystem::path& file);
-Image decode_file(const std::filesystem::path& file);
 
 } // namespace sundog

@@ -11,9 +11,4 @@ std::string encode(ImageFormat, const Image&, RgbChannels, float, const std::fil
     throw FileError(file.string() + ": this build of Sundog writes .pfm only");
 }
 
-Image decode_file(const std::filesystem::path& file)
-{
-    throw FileError(file.string() + ": this build of Sundog reads .pfm only");
-}
-
 } // namespace sundog

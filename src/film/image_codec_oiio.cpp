@@ -7,13 +7,14 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sundog {
 
 namespace {
 
-constexpr std::string_view own_attributes = "sundog:"; // others are the format's or other programs'
+constexpr float largest_rgbe = 0x1.fep126f; // of RGBE: exponents are a byte
 
 std::string one_line(std::string text)
 {
@@ -55,28 +56,6 @@ std::string encode_exr(const Image& image, const std::filesystem::path& file)
     return encode_with("openexr", spec, OIIO::TypeDesc::FLOAT, image.pixels.data(), file);
 }
 
-bool holds_srgb(const OIIO::ImageSpec& spec)
-{
-    const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-    if (spec.format.is_floating_point() || OIIO::Strutil::iequals(space, "Linear")) return false;
-    return OIIO::Strutil::iequals(space, "sRGB") || spec.format.basesize() == 1;
-}
-
-void linearize(Image& image, int alpha)
-{
-    const std::size_t channels = image.channels.size();
-    for (std::size_t i = 0; i < image.pixels.size(); ++i)
-        if (static_cast<int>(i % channels) != alpha) image.pixels[i] = linear_from_srgb(image.pixels[i]);
-}
-
-void take_metadata(Image& image, const OIIO::ImageSpec& spec)
-{
-    for (const auto& attribute : spec.extra_attribs) {
-        const std::string name = attribute.name().string();
-        if (name.starts_with(own_attributes)) image.metadata.emplace_back(name, attribute.get_string());
-    }
-}
-
 } // namespace
 
 bool can_encode(ImageFormat) { return true; }
@@ -91,24 +70,8 @@ std::string encode(ImageFormat format, const Image& image, RgbChannels rgb, floa
         return encode_with("png", spec, OIIO::TypeDesc::UINT8, pixels.data(), file);
     }
     const OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
-    const auto pixels = pick_rgb<float>(image, rgb, [](float value) { return value; }, 1.0f);
+    const auto pixels = pick_rgb<float>(image, rgb, [](float value) { return std::min(value, largest_rgbe); }, 1.0f);
     return encode_with("hdr", spec, OIIO::TypeDesc::FLOAT, pixels.data(), file);
-}
-
-Image decode_file(const std::filesystem::path& file)
-{
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    const auto input = OIIO::ImageInput::open(file.string(), &config);
-    if (!input) throw FileError(file.string() + ": cannot read the image: " + one_line(OIIO::geterror()));
-    const OIIO::ImageSpec spec = input->spec();
-    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1) throw FileError(file.string() + ": not a plain two-dimensional image");
-    Image image(spec.width, spec.height, spec.channelnames);
-    if (!input->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, image.pixels.data()))
-        throw FileError(file.string() + ": cannot read the image: " + one_line(input->geterror()));
-    if (holds_srgb(spec)) linearize(image, spec.alpha_channel);
-    take_metadata(image, spec);
-    return image;
 }
 
 } // namespace sundog

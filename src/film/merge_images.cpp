@@ -65,12 +65,20 @@ std::string parameters_of(const Image& image, const std::filesystem::path& file)
 
 } // namespace
 
+void ImageMerger::check(const Image& header, const std::filesystem::path& file) const
+{
+    if (number<std::uint64_t>(header, "iterations", file) == 0) throw FileError(file.string() + ": cannot be merged, it has no iterations");
+    if (!first_.channels.empty()) check_like_first(header, file);
+}
+
 void ImageMerger::add(const Image& part, const std::filesystem::path& file)
 {
+    check(part, file);
     const auto iterations = number<std::uint64_t>(part, "iterations", file);
-    if (iterations == 0) throw FileError(file.string() + ": cannot be merged, it has no iterations");
-    if (first_.channels.empty()) start(part, file);
-    check_like_first(part, file);
+    if (first_.channels.empty()) {
+        start(part, file);
+        check_like_first(part, file);
+    }
     add_seeds(part, file);
     add_pixels(part, static_cast<double>(iterations), file);
     add_totals(part, file);

@@ -19,6 +19,9 @@ namespace sundog {
 // of the interval beside it adds up in squares, since the parts are independent.
 class ImageMerger {
 public:
+    // Of a part without its pixels, whether it can be added, as far as that says. Throws FileError.
+    void check(const Image& header, const std::filesystem::path& file) const;
+
     // Throws FileError, naming `file`: it does not say how it was rendered (no metadata); another size, channels,
     // method, parameters or scene than the first part; a seed that came before; a value that is not finite.
     void add(const Image& part, const std::filesystem::path& file);

@@ -288,6 +288,9 @@ MaskBsdf BsdfImporter::read_mask(ObjectReader& reader)
 {
     MaskBsdf bsdf;
     bsdf.opacity = textures_.number(reader, "opacity", 0.5, 0.0, 1.0);
+    if (index_.legacy() && bsdf.opacity.texture && !textures_.is_gray(*bsdf.opacity.texture))
+        index_.warn(reader.where_of("opacity"), "the opacity has colours; it counts by its luminance, where 0.6 lets each channel through by its own share",
+                    WarningKind::approximated);
     bsdf.nested = nested(reader, 1, 1).front();
     return bsdf;
 }

@@ -1,6 +1,6 @@
 #include "import/emitter_import.h"
 
-#include "import/bitmap.h"
+#include "import/bitmap_settings.h"
 #include "import/limits.h"
 #include "import/sensor_import.h"
 #include "import/sky_import.h"
@@ -117,17 +117,11 @@ CollimatedEmitter read_collimated(ObjectReader& reader)
     return emitter;
 }
 
-EnvironmentEmitter read_environment(ObjectReader& reader)
+EnvironmentEmitter read_environment(ObjectReader& reader, TextureImporter& textures)
 {
     EnvironmentEmitter emitter;
     if (reader.has("bitmap")) throw SceneError(reader.where_of("bitmap"), "an envmap takes its image from a file: give <string name=\"filename\">");
-    const SourceLocation where = reader.where_of("filename");
-    const auto file = reader.index().find_file(reader.text("filename", ""), where);
-    if (reader.number("gamma", -1.0) != -1.0)
-        throw SceneError(reader.where_of("gamma"), "'gamma' of an envmap must be -1 (as the file says): convert the image");
-    bool cleaned = false;
-    emitter.image = std::make_shared<const TexelImage>(load_environment(file, where, cleaned));
-    if (cleaned) reader.index().warn(where, "values of '" + file.string() + "' that are negative or not finite count as 0", WarningKind::approximated);
+    emitter.image = textures.bitmaps().environment(read_bitmap_request(reader), reader.where_of("filename"));
     emitter.scale = static_cast<float>(reader.number_between("scale", 1.0, 0.0, largest_emission));
     const Transform to_world = reader.transform("to_world");
     set_axes(to_world, reader.where_of("to_world"), emitter.axis_x, emitter.axis_y, emitter.axis_z);
@@ -169,7 +163,7 @@ std::optional<EmitterDescription> import_emitter(const XmlElement& element, cons
     else if (type == "projector")
         description.model = read_projector(reader, textures);
     else if (type == "envmap")
-        description.model = read_environment(reader);
+        description.model = read_environment(reader, textures);
     else if (type == "sky" || type == "sun" || type == "sunsky")
         description.model = read_sun_sky(reader);
     else if (type == "area")

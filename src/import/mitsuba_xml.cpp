@@ -6,7 +6,6 @@
 #include "import/integrator_import.h"
 #include "import/sensor_import.h"
 #include "import/shape_import.h"
-#include "import/texture_budget.h"
 #include "scene/validate.h"
 
 namespace sundog
@@ -32,7 +31,7 @@ void declare_parts_of_sensors(ObjectReader& root)
                                   WarningKind::ignored);
 }
 
-void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
+void import_objects(const XmlScene& xml, const SceneIndex& index, std::uint64_t texture_bytes, Scene& scene)
 {
     ObjectReader root(xml.root, index);
 
@@ -41,7 +40,7 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
     if (sensors.size() > 1) index.warn(sensors[1].where, "the scene has several sensors; only the first is rendered", WarningKind::ignored);
     import_sensor(*sensors.front().object, index, scene);
 
-    TextureImporter textures(index, scene.textures);
+    TextureImporter textures(index, scene.textures, texture_bytes);
     BsdfImporter bsdfs(index, textures, scene.bsdfs);
     InstanceImporter instances(index, bsdfs, textures, scene);
     for (const auto& shape : root.nested("shape"))
@@ -52,6 +51,7 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, Scene& scene)
             if (auto imported = import_emitter(*emitter.object, index, textures)) scene.emitters.push_back(std::move(*imported));
     if (const auto integrator = chosen_integrator(root))
         import_integrator(*integrator->object, index, scene.bounds().radius(), scene.integrator);
+    textures.bitmaps().warn_of_scaled_down();
 
     // Declared for those who refer to them, who complain about what they cannot use.
     for (const char* tag : {"bsdf", "texture", "medium", "volume", "phase"}) root.nested(tag);
@@ -67,8 +67,7 @@ LoadedScene load_scene(const std::filesystem::path& file, const LoadOptions& opt
     loaded.scene.file = file.string();
     const XmlScene xml = read_scene_xml(file, options.defines, loaded.warnings);
     const SceneIndex index(xml, loaded.warnings, options.allow_missing);
-    import_objects(xml, index, loaded.scene);
-    fit_texture_budget(loaded.scene, options.texture_bytes, loaded.warnings);
+    import_objects(xml, index, options.texture_bytes, loaded.scene);
     validate_scene(loaded.scene, loaded.warnings);
     return loaded;
 }

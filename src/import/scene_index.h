@@ -32,6 +32,7 @@ public:
     {
         warnings_.emplace_back(where.prefix() + message, kind);
     }
+    void warn(Warning warning) const { warnings_.push_back(std::move(warning)); }
     bool legacy() const { return scene_.legacy; }
 
     // `what` is not supported: a warning that says what stands in for it ("it is left out") where the user allows that, else

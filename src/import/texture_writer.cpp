@@ -17,6 +17,10 @@ const char* name_of(WrapMode mode)
         return "mirror";
     case WrapMode::clamp:
         return "clamp";
+    case WrapMode::zero:
+        return "zero";
+    case WrapMode::one:
+        return "one";
     }
     throw std::logic_error("a wrap mode that cannot be written");
 }
@@ -84,7 +88,12 @@ void TextureWriter::write(ObjectWriter root, const std::string& id, const Textur
     ObjectWriter object = root.object("texture", "bitmap", "", id);
     object.text("filename", files_.add_image(bitmap.image));
     object.boolean("raw", bitmap.image->format != TexelFormat::srgb8);
-    object.text("wrap_mode", name_of(bitmap.wrap));
+    if (bitmap.wrap_u == bitmap.wrap_v) {
+        object.text("wrap_mode", name_of(bitmap.wrap_u));
+    } else {
+        object.text("wrap_mode_u", name_of(bitmap.wrap_u));
+        object.text("wrap_mode_v", name_of(bitmap.wrap_v));
+    }
     object.text("filter_type", bitmap.filter == TextureFilter::nearest ? "nearest" : "bilinear");
     write_uv_transform(object, texture);
 }

@@ -32,6 +32,7 @@ public:
             Texture texture{};
             std::copy(description.to_u.begin(), description.to_u.end(), texture.to_u);
             std::copy(description.to_v.begin(), description.to_v.end(), texture.to_v);
+            texture.range = static_cast<uint>(description.range);
             where_ = &description.where;
             std::visit([&](const auto& model) { fill(model, texture); }, description.model);
             flat_.textures.push_back(texture);
@@ -46,7 +47,8 @@ private:
         texture.width = static_cast<uint>(image.width);
         texture.height = static_cast<uint>(image.height);
         texture.format = static_cast<uint>(image.format);
-        texture.wrap = static_cast<uint>(bitmap.wrap);
+        texture.wrap_u = static_cast<uint>(bitmap.wrap_u);
+        texture.wrap_v = static_cast<uint>(bitmap.wrap_v);
         texture.filter = static_cast<uint>(bitmap.filter);
         texture.first_texel = store(image);
     }
@@ -88,6 +90,8 @@ void flatten_textures(const Scene& scene, FlatScene& flat)
     static_assert(static_cast<uint>(TexelFormat::half) == TEXELS_HALF && static_cast<uint>(TexelFormat::linear8) == TEXELS_LINEAR &&
                   static_cast<uint>(TexelFormat::float32) == TEXELS_FLOAT);
     static_assert(static_cast<uint>(WrapMode::mirror) == WRAP_MIRROR && static_cast<uint>(WrapMode::clamp) == WRAP_CLAMP);
+    static_assert(static_cast<uint>(WrapMode::zero) == WRAP_ZERO && static_cast<uint>(WrapMode::one) == WRAP_ONE);
+    static_assert(static_cast<uint>(TextureRange::positive) == RANGE_POSITIVE && static_cast<uint>(TextureRange::unit) == RANGE_UNIT);
     static_assert(static_cast<uint>(TextureFilter::bilinear) == FILTER_BILINEAR);
     TextureFlattener(scene, flat).run();
 }

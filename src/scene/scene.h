@@ -97,8 +97,13 @@ struct NumberSource {
 };
 
 enum class TexelFormat { srgb8, linear8, half, float32 }; // as TEXELS_... of kernels/shared/texture.h
-enum class WrapMode { repeat, mirror, clamp };
+enum class WrapMode { repeat, mirror, clamp, zero, one }; // zero and one: what is outside of the image
 enum class TextureFilter { nearest, bilinear };
+
+constexpr std::size_t words_per_texel(TexelFormat format)
+{
+    return format == TexelFormat::float32 ? 3 : format == TexelFormat::half ? 2 : 1;
+}
 
 // Rows from the top.
 struct TexelImage {
@@ -107,12 +112,13 @@ struct TexelImage {
     TexelFormat format = TexelFormat::srgb8;
     std::vector<uint> texels; // a texel's one (8 bits), two (half) or three (float) words
 
-    std::size_t words_per_texel() const { return format == TexelFormat::float32 ? 3 : format == TexelFormat::half ? 2 : 1; }
+    std::size_t words_per_texel() const { return sundog::words_per_texel(format); }
 };
 
 struct BitmapTexture {
     std::shared_ptr<const TexelImage> image;
-    WrapMode wrap = WrapMode::repeat;
+    WrapMode wrap_u = WrapMode::repeat;
+    WrapMode wrap_v = WrapMode::repeat;
     TextureFilter filter = TextureFilter::bilinear;
 };
 
@@ -124,12 +130,20 @@ struct AttributeTexture {
     std::string name; // of a MeshAttribute; 0 where a shape has none
 };
 
+// What a texture's value, with the factor on it, is clamped to.
+enum class TextureRange {
+    any,
+    positive, // 0 and more: light
+    unit, // [0, 1]: reflectances
+};
+
 struct TextureDescription {
     std::string id;
     SourceLocation where;
     std::array<float, 3> to_u{1, 0, 0}; // u' = to_u . (u, v, 1)
     std::array<float, 3> to_v{0, 1, 0};
     std::variant<BitmapTexture, CheckerboardTexture, AttributeTexture> model;
+    TextureRange range = TextureRange::any;
 
     double aspect() const; // of a bitmap, width over height; 1 for others
 };

@@ -74,35 +74,49 @@ struct MeanOfTexture {
 
 } // namespace
 
-Vec3 linear_texel(const TexelImage& image, std::size_t index)
+Vec3 linear_texel(TexelFormat format, const uint* words)
 {
-    const uint* words = &image.texels[index * image.words_per_texel()];
-    if (image.format == TexelFormat::float32) return {std::bit_cast<float>(words[0]), std::bit_cast<float>(words[1]), std::bit_cast<float>(words[2])};
-    if (image.format == TexelFormat::half) {
+    if (format == TexelFormat::float32) return {std::bit_cast<float>(words[0]), std::bit_cast<float>(words[1]), std::bit_cast<float>(words[2])};
+    if (format == TexelFormat::half) {
         const auto number = [](uint bits) { return float_from_half(static_cast<std::uint16_t>(bits)); };
         return {number(words[0] & 0xffff), number(words[0] >> 16), number(words[1] & 0xffff)};
     }
     const auto channel = [&](int shift) {
         const uint byte = (words[0] >> shift) & 0xff;
-        return image.format == TexelFormat::srgb8 ? decoded_bytes()[byte] : static_cast<float>(byte) / 255.0f;
+        return format == TexelFormat::srgb8 ? decoded_bytes()[byte] : static_cast<float>(byte) / 255.0f;
     };
     return {channel(0), channel(8), channel(16)};
 }
 
-void set_linear_texels(TexelImage& image, const std::vector<float>& values)
+Vec3 linear_texel(const TexelImage& image, std::size_t index)
 {
-    const bool fit = std::all_of(values.begin(), values.end(), [](float value) { return std::abs(value) <= largest_half; });
-    image.format = fit ? TexelFormat::half : TexelFormat::float32;
-    image.texels.clear();
-    image.texels.reserve(values.size() / 3 * image.words_per_texel());
-    for (std::size_t i = 0; i < values.size(); i += 3) {
-        if (fit) {
-            image.texels.push_back(half_from_float(values[i]) | static_cast<uint>(half_from_float(values[i + 1])) << 16);
-            image.texels.push_back(half_from_float(values[i + 2]));
-        } else {
-            for (std::size_t c = 0; c < 3; c++) image.texels.push_back(std::bit_cast<uint>(values[i + c]));
-        }
+    return linear_texel(image.format, &image.texels[index * image.words_per_texel()]);
+}
+
+bool is_of_bytes(TexelFormat format)
+{
+    return format == TexelFormat::srgb8 || format == TexelFormat::linear8;
+}
+
+void append_numbers(TexelFormat format, Vec3 texel, std::vector<uint>& texels)
+{
+    if (format == TexelFormat::half) {
+        texels.push_back(half_from_float(texel.x) | static_cast<uint>(half_from_float(texel.y)) << 16);
+        texels.push_back(half_from_float(texel.z));
+    } else {
+        for (const float value : {texel.x, texel.y, texel.z}) texels.push_back(std::bit_cast<uint>(value));
     }
+}
+
+void narrow(TexelImage& image)
+{
+    const auto fits = [](uint bits) { return std::abs(std::bit_cast<float>(bits)) <= largest_half; };
+    if (image.format != TexelFormat::float32 || !std::all_of(image.texels.begin(), image.texels.end(), fits)) return;
+    std::vector<uint> halves;
+    halves.reserve(image.texels.size() / 3 * 2);
+    for (std::size_t i = 0; i < image.texels.size(); i += 3) append_numbers(TexelFormat::half, linear_texel(image.format, &image.texels[i]), halves);
+    image.texels = std::move(halves);
+    image.format = TexelFormat::half;
 }
 
 Vec3 mean_color(const Scene& scene, uint texture, const TriangleMesh* mesh)

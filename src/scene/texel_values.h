@@ -8,9 +8,16 @@ namespace sundog {
 // Texel `index`, row by row, in linear light.
 Vec3 linear_texel(const TexelImage& image, std::size_t index);
 
-// Gives a bitmap texels that are numbers rather than bytes, red, green and blue in turn: as half floats if those hold all of
-// them, else as 32-bit ones. All bitmaps keep to this, so that a file of the numbers is read as the same texels.
-void set_linear_texels(TexelImage& image, const std::vector<float>& values);
+// The texel whose first word this is.
+Vec3 linear_texel(TexelFormat format, const uint* words);
+
+// Whether texels are bytes; else they are numbers.
+bool is_of_bytes(TexelFormat format);
+// Adds a texel of numbers.
+void append_numbers(TexelFormat format, Vec3 texel, std::vector<uint>& texels);
+// Makes half floats of 32-bit ones where those hold all of them. All bitmaps keep to this, so that a file of the numbers is read as
+// the same texels.
+void narrow(TexelImage& image);
 
 // Mean of a texture: of its texels, its squares, or, for an attribute, the values that the mesh has of it (none: 0).
 // `mesh` may be null. Negative values count as 0.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace sundog
 {
@@ -63,13 +64,26 @@ bool surrounds(const EmitterDescription& emitter)
 }
 
 constexpr const char* dark = "a light that emits nothing is left out";
+constexpr double most_emission = 1e30; // radiance, intensity, power, ...: sums and products of it stay finite
 
-void check_area_lights(Scene& scene, std::vector<Warning>& warnings)
+void check_emission(double emission, const SourceLocation& where)
+{
+    if (!(emission <= most_emission)) throw SceneError(where, "the light is too bright for 32-bit numbers: give it at most 1e30");
+}
+
+// The one that gives no light, and why.
+struct DarkLight {
+    SourceLocation where;
+    bool is_image = false;
+};
+
+void check_area_lights(Scene& scene, std::vector<Warning>& warnings, std::optional<DarkLight>& first_dark)
 {
     for (auto& shape : scene.shapes) {
         if (!shape.emitter) continue;
         if (max_component(shape.emitter->radiance) <= 0.0f) {
             warnings.push_back(shape.where.prefix() + dark);
+            if (!first_dark) first_dark = {shape.where};
             shape.emitter.reset();
             continue;
         }
@@ -77,10 +91,12 @@ void check_area_lights(Scene& scene, std::vector<Warning>& warnings)
         if (!(area > 0.0f)) throw SceneError(shape.where, "the area of the light is zero in 32-bit numbers: scale the scene up");
         if (!std::isfinite(area))
             throw SceneError(shape.where, "the area of the light is too large for 32-bit numbers: scale the scene down");
+        const double radiance = max_component(shape.emitter->radiance);
+        check_emission(radiance * std::max(1.0, std::numbers::pi * area), shape.where);
     }
 }
 
-void check_emitters(Scene& scene, std::vector<Warning>& warnings)
+void check_emitters(Scene& scene, std::vector<Warning>& warnings, std::optional<DarkLight>& first_dark)
 {
     bool environment = false;
     for (std::size_t i = 0; i < scene.emitters.size();) {
@@ -89,11 +105,14 @@ void check_emitters(Scene& scene, std::vector<Warning>& warnings)
             if (environment) throw SceneError(emitter.where, "the scene has two environments: keep one constant, envmap, sky, sun or sunsky emitter");
             environment = true;
         }
-        if (max_component(emission_of(emitter)) > 0.0f) {
+        const float emission = max_component(emission_of(emitter));
+        if (!(emission <= 0.0f)) {
+            check_emission(emission, emitter.where);
             i++;
             continue;
         }
         warnings.push_back(emitter.where.prefix() + dark);
+        if (!first_dark) first_dark = {emitter.where, std::holds_alternative<EnvironmentEmitter>(emitter.model)};
         scene.emitters.erase(scene.emitters.begin() + static_cast<std::ptrdiff_t>(i));
     }
 }
@@ -110,12 +129,17 @@ void validate_scene(Scene& scene, std::vector<Warning>& warnings)
     if (scene.triangle_count() > max_primitives)
         throw SceneError({scene.file, 0},
                          "the scene has " + std::to_string(scene.triangle_count()) + " triangles; at most 2^30 can be rendered");
-    check_area_lights(scene, warnings);
-    check_emitters(scene, warnings);
+    std::optional<DarkLight> dark_light;
+    check_area_lights(scene, warnings, dark_light);
+    check_emitters(scene, warnings, dark_light);
     bool lit = !scene.emitters.empty();
     for (const auto& shape : scene.shapes) lit = lit || shape.emitter.has_value();
     if (scene.shapes.empty() && lit)
         warnings.push_back(Warning(SourceLocation{scene.file, 0}.prefix() + "the scene has no <shape>: it shows the environment at most"));
+    if (!lit && dark_light)
+        throw SceneError(dark_light->where, std::string("the scene has no light: this one emits nothing") +
+                                                (dark_light->is_image ? ", for its image (or its scale) is nowhere above 0; negative values and NaN count as 0" : "") +
+                                                ". Give it values above 0");
     if (!lit) throw SceneError({scene.file, 0}, "the scene has no light: add an <emitter> with a radiance or intensity above 0");
 }
 

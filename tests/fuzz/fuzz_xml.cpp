@@ -16,6 +16,7 @@ const std::filesystem::path& folder()
         const auto made = std::filesystem::temp_directory_path() / ("sundog_fuzz_" + std::to_string(getpid()));
         std::filesystem::create_directories(made);
         std::ofstream(made / "m.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\n";
+        std::ofstream(made / "t.ppm") << "P3\n2 1\n255\n255 0 16 128 128 128\n";
         std::ofstream(made / "i.xml") << "<emitter type=\"point\"/>";
         return made;
     }();

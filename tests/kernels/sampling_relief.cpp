@@ -52,7 +52,7 @@ ProbeScene scene_with(const Relief& relief, const Model& nested)
     texture.type = TEXTURE_BITMAP;
     texture.width = texture.height = 2;
     texture.format = TEXELS_HALF;
-    texture.wrap = WRAP_CLAMP;
+    texture.wrap_u = texture.wrap_v = WRAP_CLAMP;
     texture.filter = FILTER_BILINEAR;
     texture.to_u[0] = texture.to_v[1] = 1.0f;
     scene.textures = {texture};

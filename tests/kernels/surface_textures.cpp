@@ -67,9 +67,27 @@ int wrapped(int i, int size, WrapMode mode)
     return j < size ? j : 2 * size - 1 - j;
 }
 
-Vec3d looked_up(const TestImage& image, WrapMode wrap, TextureFilter filter, double u, double v)
+struct WrapModes {
+    WrapMode u = WrapMode::repeat, v = WrapMode::repeat;
+};
+
+bool is_outside(int i, int size, WrapMode mode)
 {
-    const auto texel = [&](int x, int y) { return image.linear[static_cast<std::size_t>(wrapped(y, height, wrap) * width + wrapped(x, width, wrap))]; };
+    return (mode == WrapMode::zero || mode == WrapMode::one) && (i < 0 || i >= size);
+}
+
+Vec3d constant_of(WrapMode mode)
+{
+    return mode == WrapMode::one ? Vec3d(1, 1, 1) : Vec3d(0, 0, 0);
+}
+
+Vec3d looked_up(const TestImage& image, WrapModes wrap, TextureFilter filter, double u, double v)
+{
+    const auto texel = [&](int x, int y) {
+        if (is_outside(x, width, wrap.u)) return constant_of(wrap.u);
+        if (is_outside(y, height, wrap.v)) return constant_of(wrap.v);
+        return image.linear[static_cast<std::size_t>(wrapped(y, height, wrap.v) * width + wrapped(x, width, wrap.u))];
+    };
     const double x = u * width, y = v * height;
     if (filter == TextureFilter::nearest) return texel(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
     const int x0 = static_cast<int>(std::floor(x - 0.5)), y0 = static_cast<int>(std::floor(y - 0.5));
@@ -164,9 +182,12 @@ TEST_F(SurfaceTextures, BitmapsAreLookedUp)
 {
     for (const TexelFormat format : {TexelFormat::srgb8, TexelFormat::linear8, TexelFormat::half}) {
         const TestImage image = make_image(format, 11);
-        for (const WrapMode wrap : {WrapMode::repeat, WrapMode::mirror, WrapMode::clamp}) {
+        for (const WrapModes wrap : {WrapModes{WrapMode::repeat, WrapMode::repeat}, WrapModes{WrapMode::mirror, WrapMode::mirror},
+                                     WrapModes{WrapMode::clamp, WrapMode::clamp}, WrapModes{WrapMode::zero, WrapMode::zero},
+                                     WrapModes{WrapMode::one, WrapMode::one}, WrapModes{WrapMode::repeat, WrapMode::clamp},
+                                     WrapModes{WrapMode::zero, WrapMode::one}, WrapModes{WrapMode::one, WrapMode::mirror}}) {
             for (const TextureFilter filter : {TextureFilter::nearest, TextureFilter::bilinear}) {
-                const uint texture = add(BitmapTexture{image.image, wrap, filter}, {1.5f, 0.25f, 0.1f}, {-0.5f, 2.0f, -0.3f});
+                const uint texture = add(BitmapTexture{image.image, wrap.u, wrap.v, filter}, {1.5f, 0.25f, 0.1f}, {-0.5f, 2.0f, -0.3f});
                 uint doubtful = 0;
                 for (const Place& p : ask(texture)) {
                     const double u = 1.5 * p.uv.x + 0.25 * p.uv.y + 0.1, v = -0.5 * p.uv.x + 2.0 * p.uv.y - 0.3;
@@ -187,7 +208,7 @@ TEST_F(SurfaceTextures, BitmapsAreLookedUp)
 TEST_F(SurfaceTextures, CheckerboardsHoldTexturesAndFactors)
 {
     const TestImage image = make_image(TexelFormat::linear8, 3);
-    const uint bitmap = add(BitmapTexture{image.image, WrapMode::repeat, TextureFilter::nearest});
+    const uint bitmap = add(BitmapTexture{image.image, WrapMode::repeat, WrapMode::repeat, TextureFilter::nearest});
     CheckerboardTexture board;
     board.colors[0] = ColorSource(Vec3{2, 1, 0.5f}, bitmap);
     board.colors[1] = ColorSource(Vec3{0.1f, 0.2f, 0.3f});
@@ -197,7 +218,7 @@ TEST_F(SurfaceTextures, CheckerboardsHoldTexturesAndFactors)
         if (near_edge(2.0 * p.uv.x) || near_edge(2.0 * p.uv.y) || near_edge(p.uv.x * width) || near_edge(p.uv.y * height)) continue;
         const auto upper = [](double x) { return x - std::floor(x) > 0.5; };
         if (upper(p.uv.x) == upper(p.uv.y)) {
-            const Vec3d texel = looked_up(image, WrapMode::repeat, TextureFilter::nearest, p.uv.x, p.uv.y);
+            const Vec3d texel = looked_up(image, {}, TextureFilter::nearest, p.uv.x, p.uv.y);
             ASSERT_LT(length(p.color - Vec3d(2 * texel.x, texel.y, 0.5 * texel.z)), 1e-4);
             ++first;
         } else {
@@ -207,6 +228,29 @@ TEST_F(SurfaceTextures, CheckerboardsHoldTexturesAndFactors)
     }
     EXPECT_GT(first, 1000);
     EXPECT_GT(second, 1000);
+}
+
+// With their factor, and the values of vertices too.
+TEST_F(SurfaceTextures, ValuesStayInTheirRange)
+{
+    TexelImage image;
+    image.width = image.height = 1;
+    image.format = TexelFormat::float32;
+    for (const float value : {-1.0f, 3.0f, 0.25f}) image.texels.push_back(std::bit_cast<uint>(value));
+    const auto texel = std::make_shared<const TexelImage>(std::move(image));
+    const std::pair<TextureRange, Vec3d> expected[] = {
+        {TextureRange::any, {-1, 3, 0.25}}, {TextureRange::positive, {0, 3, 0.25}}, {TextureRange::unit, {0, 1, 0.25}}};
+    for (const auto& [range, value] : expected) {
+        const uint bitmap = add(BitmapTexture{texel});
+        builder_.scene.textures[bitmap].range = range;
+        for (const Place& p : ask(bitmap)) ASSERT_LT(length(p.color - value), 1e-6);
+    }
+    const uint tint = add(AttributeTexture{"face_tint"});
+    builder_.scene.textures[tint].range = TextureRange::unit;
+    for (const Place& p : ask(tint)) {
+        const Vec3 value = min(mesh_.attributes[1].values[p.face], Vec3{1, 1, 1});
+        ASSERT_LT(length(p.color - Vec3d(value)), 1e-5);
+    }
 }
 
 TEST_F(SurfaceTextures, AttributesBelongToVerticesOrFaces)

@@ -321,7 +321,7 @@ uint add_relief(Scene& scene, bool normals, uint nested)
                               {},
                               {1, 0, 0},
                               {0, 1, 0},
-                              BitmapTexture{std::make_shared<const TexelImage>(image), WrapMode::repeat, TextureFilter::bilinear}});
+                              BitmapTexture{std::make_shared<const TexelImage>(image), WrapMode::repeat, WrapMode::repeat, TextureFilter::bilinear}});
     const uint texture = static_cast<uint>(scene.textures.size() - 1);
     // Normals are not turned round: which are would depend on the side that a path comes from.
     if (normals) return add_bsdf(scene, NormalMapBsdf{ColorSource(Vec3{1, 1, 1}, texture), false, true, nested});

@@ -28,7 +28,7 @@ inline std::shared_ptr<const TexelImage> light_image(int width, int height, uint
 inline uint add_light_image(Scene& scene, std::shared_ptr<const TexelImage> image)
 {
     TextureDescription texture;
-    texture.model = BitmapTexture{std::move(image), WrapMode::clamp, TextureFilter::bilinear};
+    texture.model = BitmapTexture{std::move(image), WrapMode::clamp, WrapMode::clamp, TextureFilter::bilinear};
     scene.textures.push_back(texture);
     return static_cast<uint>(scene.textures.size() - 1);
 }

@@ -238,10 +238,13 @@ const std::vector<Broken> broken_scenes = {
     {"TwoEnvironments", 3, "two environments", scene("<emitter type=\"constant\"/>\n<emitter type=\"constant\"/>")},
     {"TinyLight", 2, "area of the light is zero",
      scene("<shape type=\"disk\"><transform name=\"to_world\"><scale value=\"1e-30\"/></transform><emitter type=\"area\"/></shape>")},
+    {"LightTooBright", 2, "too bright for 32-bit numbers", scene("<emitter type=\"point\"><rgb name=\"intensity\" value=\"1e38\"/></emitter>")},
+    {"LampTooBright", 2, "too bright for 32-bit numbers",
+     scene("<shape type=\"sphere\"><emitter type=\"area\"><rgb name=\"radiance\" value=\"1e38\"/></emitter></shape>")},
     // The scene as a whole
     {"NoSensor", 0, "<sensor>", "<scene version=\"3.0.0\">" + light + "</scene>"},
     {"NoLight", 0, "no light", "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><shape type=\"cube\"/></scene>"},
-    {"DarkLight", 0, "no light",
+    {"DarkLight", 1, "no light: this one emits nothing",
      "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><shape type=\"cube\"><emitter type=\"area\"><rgb name=\"radiance\" "
      "value=\"0\"/></emitter></shape></scene>"},
     {"CylinderWithoutLength", 2, "two different end points", scene("<shape type=\"cylinder\"><point name=\"p1\" x=\"0\"/></shape>")},

@@ -35,40 +35,34 @@ TEST(Half, RoundsToTheNearestAndTiesToEven)
     EXPECT_EQ(half_from_float(-2.0f), 0xc000);
 }
 
-std::shared_ptr<const TexelImage> image_of(int width, int height, TexelFormat format = TexelFormat::linear8, uint texel = 0x0a141e)
+TexelImage image_of(int width, int height, TexelFormat format = TexelFormat::linear8, uint texel = 0x0a141e)
 {
     TexelImage image;
     image.width = width;
     image.height = height;
     image.format = format;
     image.texels.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * image.words_per_texel(), texel);
-    return std::make_shared<const TexelImage>(std::move(image));
+    return image;
 }
 
-void add(Scene& scene, std::shared_ptr<const TexelImage> image)
+BudgetedBitmap bitmap_of(int width, int height)
 {
-    scene.textures.push_back({"", {"a.xml", static_cast<int>(scene.textures.size()) + 1}, {1, 0, 0}, {0, 1, 0}, BitmapTexture{std::move(image), {}, {}}});
+    return {std::make_shared<TexelImage>(image_of(width, height)), width, height, {"a.xml", 1}};
 }
 
 TEST(TextureBudget, LargestBitmapsShrinkFirst)
 {
-    Scene scene;
-    const auto large = image_of(64, 32); // 8192 bytes
-    add(scene, large);
-    add(scene, image_of(16, 16)); // 1024
-    add(scene, large);
-    std::vector<Warning> warnings;
-    fit_texture_budget(scene, 9216, warnings);
-    EXPECT_TRUE(warnings.empty());
-    fit_texture_budget(scene, 9215, warnings);
-    ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_THAT(warnings[0], HasSubstr("a.xml:1: the bitmap was scaled down from 64x32 to 32x16"));
-    const auto image = [&](std::size_t i) { return std::get<BitmapTexture>(scene.textures[i].model).image; };
-    EXPECT_EQ(image(0)->width, 32);
-    EXPECT_EQ(image(0), image(2)) << "still shared";
-    EXPECT_EQ(image(1)->width, 16);
-    fit_texture_budget(scene, 0, warnings);
-    EXPECT_EQ(image(0)->texels.size(), 1u) << "never less than a texel";
+    std::vector<BudgetedBitmap> bitmaps{bitmap_of(64, 32), bitmap_of(16, 16)}; // 8192 and 1024 bytes
+    fit_texture_budget(bitmaps, 9216);
+    EXPECT_EQ(bitmaps[0].image->width, 64);
+    const std::shared_ptr<const TexelImage> shared = bitmaps[0].image;
+    fit_texture_budget(bitmaps, 9215);
+    EXPECT_EQ(shared->width, 32) << "for all who use it";
+    EXPECT_EQ(shared->height, 16);
+    EXPECT_EQ(bitmaps[1].image->width, 16);
+    EXPECT_THAT(scaled_down_warning(bitmaps[0].where, "bitmap", 64, 32, *shared, 9215).text, HasSubstr("a.xml:1: the bitmap was scaled down from 64x32 to 32x16"));
+    fit_texture_budget(bitmaps, 0);
+    EXPECT_EQ(shared->texels.size(), 1u) << "never less than a texel";
 }
 
 TEST(TextureBudget, TexelsAreAveragedInLinearLight)
@@ -85,10 +79,10 @@ TEST(TextureBudget, TexelsAreAveragedInLinearLight)
     image.texels = {half_from_float(1.0f) | static_cast<uint>(half_from_float(8.0f)) << 16, half_from_float(0.5f),
                     half_from_float(3.0f) | static_cast<uint>(half_from_float(0.0f)) << 16, half_from_float(0.25f)};
     EXPECT_EQ(halved(image).texels, (std::vector<uint>{half_from_float(2.0f) | static_cast<uint>(half_from_float(4.0f)) << 16, half_from_float(0.375f)}));
-    const auto odd = image_of(5, 3);
-    EXPECT_EQ(halved(*odd).width, 2);
-    EXPECT_EQ(halved(*odd).height, 1);
-    EXPECT_EQ(halved(*odd).texels, (std::vector<uint>(2, 0x0a141e)));
+    const TexelImage odd = image_of(5, 3);
+    EXPECT_EQ(halved(odd).width, 2);
+    EXPECT_EQ(halved(odd).height, 1);
+    EXPECT_EQ(halved(odd).texels, (std::vector<uint>(2, 0x0a141e)));
 }
 
 } // namespace
