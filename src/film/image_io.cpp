@@ -2,6 +2,7 @@
 
 #include "base/atomic_file.h"
 #include "base/errors.h"
+#include "base/regular_file.h"
 #include "film/image_codec.h"
 
 #include <algorithm>
@@ -82,6 +83,7 @@ Image read_image(const fs::path& path)
     std::error_code error;
     if (!fs::exists(path, error)) throw FileError(path.string() + ": cannot read, there is no such file");
     if (fs::is_directory(path, error)) throw FileError(path.string() + ": cannot read, it is a folder; give an image file");
+    if (const std::string fault = not_a_regular_file(path); !fault.empty()) throw FileError(path.string() + ": " + fault);
     if (lower_ending(path) != ".pfm") return decode_file(path);
     std::ifstream file(path, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

@@ -1,5 +1,6 @@
 #include "import/bitmap.h"
 
+#include "base/regular_file.h"
 #include "math/half.h"
 #include "math/srgb.h"
 #include "scene/texel_values.h"
@@ -86,6 +87,7 @@ OIIO::TypeDesc file_type(TexelFormat format)
 
 std::unique_ptr<OIIO::ImageInput> open_plane(const std::filesystem::path& file, const SourceLocation& wanted_at)
 {
+    if (const std::string fault = not_a_regular_file(file); !fault.empty()) unreadable(file, wanted_at, fault);
     auto input = OIIO::ImageInput::open(file.string());
     if (!input) unreadable(file, wanted_at, OIIO::geterror());
     const OIIO::ImageSpec& spec = input->spec();

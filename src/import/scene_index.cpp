@@ -13,7 +13,8 @@ bool is_object_tag(std::string_view tag)
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 
-SceneIndex::SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings) : scene_(scene), warnings_(warnings)
+SceneIndex::SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings, const LocalOrigins& origins)
+    : scene_(scene), warnings_(warnings), origins_(origins)
 {
     collect(scene.root);
 }

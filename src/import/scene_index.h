@@ -1,7 +1,9 @@
-// What the parts of an importer share: objects by id, files by name, and the list of warnings.
+// What the parts of an importer share: objects by id, files by name, where places are counted from,
+// and the list of warnings.
 #pragma once
 
 #include "base/warning.h"
+#include "import/local_origin.h"
 #include "import/xml_document.h"
 
 #include <map>
@@ -15,8 +17,8 @@ bool is_object_tag(std::string_view tag);
 class SceneIndex
 {
 public:
-    // Keeps references to both. Throws SceneError for an id that is given twice.
-    SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings);
+    // Keeps references to all. Throws SceneError for an id that is given twice.
+    SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings, const LocalOrigins& origins);
 
     // The object that a <ref> means, through any <alias>. Throws SceneError for unknown ids.
     const XmlElement& resolve(const XmlElement& reference) const;
@@ -30,6 +32,7 @@ public:
         warnings_.emplace_back(where.prefix() + message, kind);
     }
     bool legacy() const { return scene_.legacy; }
+    const LocalOrigins& origins() const { return origins_; }
 
 private:
     void collect(const XmlElement& element);
@@ -37,6 +40,7 @@ private:
 
     const XmlScene& scene_;
     std::vector<Warning>& warnings_;
+    const LocalOrigins& origins_;
     std::map<std::string, const XmlElement*, std::less<>> objects_; // an <alias> stands for itself
 };
 

@@ -1,5 +1,6 @@
 #include "scene/validate.h"
 
+#include "scene/check_places.h"
 #include "scene/flatten_environment.h"
 
 #include <cmath>
@@ -103,6 +104,7 @@ void validate_scene(Scene& scene, std::vector<Warning>& warnings)
     if (scene.triangle_count() > max_primitives)
         throw SceneError({scene.file, 0},
                          "the scene has " + std::to_string(scene.triangle_count()) + " triangles; at most 2^30 can be rendered");
+    check_places(scene);
     check_area_lights(scene, warnings);
     check_emitters(scene, warnings);
     bool lit = !scene.emitters.empty();
