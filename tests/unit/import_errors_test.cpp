@@ -232,7 +232,7 @@ const std::vector<Broken> broken_scenes = {
     {"LanczosWithoutLobes", 3, "at least one lobe", film("<rfilter type=\"lanczos\"><integer name=\"lobes\" value=\"0\"/></rfilter>")},
     {"ZeroDirection", 2, "direction", scene("<emitter type=\"directional\"><vector name=\"direction\" value=\"0\"/></emitter>")},
     {"TwoEnvironments", 3, "two environments", scene("<emitter type=\"constant\"/>\n<emitter type=\"constant\"/>")},
-    {"TinyLight", 2, "area of the light is zero",
+    {"TinyLight", 2, "too small",
      scene("<shape type=\"disk\"><transform name=\"to_world\"><scale value=\"1e-30\"/></transform><emitter type=\"area\"/></shape>")},
     // The scene as a whole
     {"NoSensor", 0, "<sensor>", "<scene version=\"3.0.0\">" + light + "</scene>"},

@@ -220,12 +220,26 @@ TEST(ImportSerialized, FlippedBitsAreNoOtherMesh)
     Part part;
     part.normals = part.uvs = part.colors = true;
     const std::string file = file_of({part});
+    const auto loaded_whole = load_mesh("m.serialized", file);
+    const TriangleMesh& whole = mesh_of(loaded_whole);
+    std::size_t same = 0;
     for (std::size_t bit = 0; bit < 8 * part.stream().size(); bit++) {
         std::string damaged = file;
         damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << bit % 8));
-        const std::string error = error_of_mesh("m.serialized", damaged);
-        EXPECT_THAT(error, HasSubstr("m.serialized: ")) << bit;
+        try {
+            // Some bits have no meaning: those that fill the last byte before the checksum.
+            const auto loaded = load_mesh("m.serialized", damaged);
+            const TriangleMesh& mesh = mesh_of(loaded);
+            EXPECT_EQ(mesh.positions, whole.positions) << bit;
+            EXPECT_EQ(mesh.normals, whole.normals) << bit;
+            EXPECT_EQ(mesh.triangles, whole.triangles) << bit;
+            EXPECT_EQ(mesh.attributes[0].values, whole.attributes[0].values) << bit;
+            same++;
+        } catch (const SceneError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("m.serialized: ")) << bit;
+        }
     }
+    EXPECT_LT(same, 8u);
 }
 
 // A megabyte that expands to a gigabyte.
