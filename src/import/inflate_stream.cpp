@@ -54,7 +54,8 @@ void InflateStream::check(int status, std::size_t got)
     const bool out_of_input = stream_.avail_in == 0 && rest_.empty() && got == 0;
     if (out_of_input && status != Z_DATA_ERROR) throw SceneError(where_, "the mesh ends early: is the file truncated?");
     if (status != Z_OK && status != Z_BUF_ERROR)
-        throw SceneError(where_, std::string("the compressed mesh is damaged") + (stream_.msg ? std::string(" (") + stream_.msg + ")" : ""));
+        throw SceneError(where_,
+                         std::string("the compressed mesh is damaged") + (stream_.msg ? std::string(" (") + stream_.msg + ")" : ""));
 }
 
 void InflateStream::read(void* buffer, std::size_t size)

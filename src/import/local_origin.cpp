@@ -34,8 +34,7 @@ LocalOrigin moved(const LocalOrigin& origin, const Bounds& bounds)
     return result;
 }
 
-// Those that lie in the world, or in the group; the second is empty where an instance of the group moves, which would have
-// to turn about the origin of the file.
+// Of groups in their own spaces; empty for one with an instance that moves, which has to turn about the origin of the file.
 std::vector<Bounds> bounds_of_groups(const Scene& scene)
 {
     std::vector<Bounds> groups(scene.groups.size());
@@ -96,7 +95,8 @@ void warn_of_places(const Scene& scene, std::vector<Warning>& warnings)
 {
     if (scene.origin != Double3{0, 0, 0})
         warnings.emplace_back(SourceLocation{scene.file, 0}.prefix() + "the scene is far from the origin: its places are counted from (" +
-                              number_text(scene.origin[0]) + ", " + number_text(scene.origin[1]) + ", " + number_text(scene.origin[2]) + ")");
+                              number_text(scene.origin[0]) + ", " + number_text(scene.origin[1]) + ", " + number_text(scene.origin[2]) +
+                              ")");
     constexpr double visible = 1e-3;
     std::size_t coarse = 0;
     const ShapeDescription* worst = nullptr;
@@ -108,7 +108,8 @@ void warn_of_places(const Scene& scene, std::vector<Warning>& warnings)
     if (!worst) return;
     const Bounds bounds = worst->bounds();
     warnings.emplace_back(worst->where.prefix() + (coarse > 1 ? std::to_string(coarse) + " shapes are" : "a shape is") +
-                              " coarse: the worst is " + rounded_text(2.0 * bounds.radius()) + " large and " + rounded_text(distance(bounds.center())) +
+                              " coarse: the worst is " + rounded_text(2.0 * bounds.radius()) + " large and " +
+                              rounded_text(distance(bounds.center())) +
                               " from the middle of the scene, where 32-bit numbers are in steps of " +
                               rounded_text(coarseness(bounds) * 2.0 * bounds.radius()) + ": put it nearer, or make it larger",
                           WarningKind::approximated);

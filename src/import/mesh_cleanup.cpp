@@ -52,7 +52,9 @@ void require_finite_vertices(TriangleMesh& mesh, const SourceLocation& where, co
     const auto check = [&](auto& values, const char* what, const char* cure) {
         for (std::size_t i = 0; i < values.size(); i++) {
             if (is_finite(values[i])) continue;
-            if (used[i]) throw SceneError(where, what + std::to_string(i + 1) + (file.empty() ? "" : " of " + file) + " is not finite: repair the mesh" + cure);
+            if (used[i])
+                throw SceneError(where, what + std::to_string(i + 1) + (file.empty() ? "" : " of " + file) +
+                                            " is not finite: repair the mesh" + cure);
             values[i] = {};
         }
     };

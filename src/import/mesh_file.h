@@ -8,7 +8,8 @@ namespace sundog
 {
 
 struct MeshFile {
-    // As in the file: positions less an origin that was asked for, in double precision, but untransformed; normals not normalized ({0, 0, 0} where the file gives none), perhaps not finite.
+    // As in the file: positions less an origin that was asked for, in double precision, but untransformed; normals not normalized ({0, 0,
+    // 0} where the file gives none), perhaps not finite.
     TriangleMesh mesh;
     bool face_normals = false;         // the file asks for flat shading
     bool single_precision = false;     // the file has positions as 32-bit numbers

@@ -22,7 +22,8 @@ Bounds bounds_of_positions(const TriangleMesh& mesh)
 }
 
 // Everything between a file's triangles and a shape's. `file`: as messages name it.
-void finish_mesh(ObjectReader& reader, TriangleMesh& mesh, std::vector<int>& of_triangle, const std::string& file, const Transform& to_world)
+void finish_mesh(ObjectReader& reader, TriangleMesh& mesh, std::vector<int>& of_triangle, const std::string& file,
+                 const Transform& to_world)
 {
     require_valid_indices(mesh, reader.where(), file);
     require_finite_vertices(mesh, {file, 0}, "");
@@ -51,7 +52,8 @@ void turn_faces(ObjectReader& reader, TriangleMesh& mesh, const std::string& fil
     const std::size_t turned = turn_opposed_faces(mesh);
     if (turned == 0) return;
     reader.index().warn(reader.where(), std::to_string(turned) + " of " + std::to_string(mesh.triangles.size()) + " triangles of " + file +
-                                            (turned == 1 ? " was" : " were") + " turned: most normals of their vertices oppose the winding");
+                                            (turned == 1 ? " was" : " were") +
+                                            " turned: most normals of their vertices oppose the winding");
 }
 
 void set_normals(ObjectReader& reader, TriangleMesh& mesh, bool flat_in_file, const std::string& file)
@@ -78,15 +80,17 @@ void warn_of_steps(ObjectReader& reader, const MeshFile& file, const std::string
     const Bounds bounds = bounds_of_positions(file.mesh);
     if (!file.single_precision || bounds.empty()) return;
     double largest = 0.0;
-    const std::array<std::array<float, 3>, 2> corners = {{{bounds.lower.x, bounds.lower.y, bounds.lower.z}, {bounds.upper.x, bounds.upper.y, bounds.upper.z}}};
+    const std::array<std::array<float, 3>, 2> corners = {
+        {{bounds.lower.x, bounds.lower.y, bounds.lower.z}, {bounds.upper.x, bounds.upper.y, bounds.upper.z}}};
     for (const auto& corner : corners)
         for (std::size_t i = 0; i < 3; i++) largest = std::max(largest, std::abs(corner[i] + reader.counted_from()[i]));
     const double step = largest * 0x1p-23, size = 2.0 * bounds.radius();
     const double visible = reader.index().origins().world.is_set() ? 1e-4 : 1e-3;
     if (!(step > visible * size)) return;
-    reader.index().warn(reader.where(), "the vertices of " + path + " are 32-bit numbers up to " + rounded_text(largest) + ", in steps of " +
-                                            rounded_text(step) + ", of a mesh that is " + rounded_text(size) +
-                                            " large: its form is lost in the file; save it in double precision, or nearer to its origin",
+    reader.index().warn(reader.where(),
+                        "the vertices of " + path + " are 32-bit numbers up to " + rounded_text(largest) + ", in steps of " +
+                            rounded_text(step) + ", of a mesh that is " + rounded_text(size) +
+                            " large: its form is lost in the file; save it in double precision, or nearer to its origin",
                         WarningKind::approximated);
 }
 

@@ -94,7 +94,8 @@ struct CornerOrder {
 
 bool has_opposed_faces(const TriangleMesh& mesh)
 {
-    return !mesh.normals.empty() && std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) { return is_opposed(mesh, t); });
+    return !mesh.normals.empty() &&
+           std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) { return is_opposed(mesh, t); });
 }
 
 std::size_t turn_opposed_faces(TriangleMesh& mesh)

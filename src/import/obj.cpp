@@ -207,7 +207,8 @@ private:
         const std::size_t first = std::min(word.find('/'), word.size());
         const std::size_t second = std::min(word.find('/', first + 1), word.size());
         Corner corner{read_index(word.substr(0, first), positions_.size(), "vertex"), -1, -1};
-        if (first < word.size()) corner[1] = read_optional_index(word.substr(first + 1, second - first - 1), uvs_.size(), "texture coordinate");
+        if (first < word.size())
+            corner[1] = read_optional_index(word.substr(first + 1, second - first - 1), uvs_.size(), "texture coordinate");
         if (second < word.size()) corner[2] = read_optional_index(word.substr(second + 1), normals_.size(), "normal");
         return corner;
     }

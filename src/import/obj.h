@@ -19,9 +19,9 @@ struct ObjMaterial {
 
 struct ObjOptions {
     bool with_materials = false;
-    bool with_normals = true; // else the file's are not looked at
+    bool with_normals = true;    // else the file's are not looked at
     bool flip_tex_coords = true; // v becomes 1 - v: images count their rows from above
-    Double3 origin{0, 0, 0}; // is subtracted from positions, in double precision
+    Double3 origin{0, 0, 0};     // is subtracted from positions, in double precision
     // Only this one of the file's shapes, counted from 0: as in Mitsuba 0.6, g and usemtl begin a new shape where the
     // last one has faces.
     std::optional<int> shape_index;

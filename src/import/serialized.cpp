@@ -104,8 +104,7 @@ private:
         file.single_precision = !doubles;
         if (flags & has_normals) mesh.normals = read_vectors<Vec3>(stream, vertices, doubles);
         if (flags & has_uvs) mesh.uvs = read_vectors<Vec2>(stream, vertices, doubles);
-        if (flags & has_colors)
-            mesh.attributes.push_back({"vertex_color", false, read_vectors<Vec3>(stream, vertices, doubles)});
+        if (flags & has_colors) mesh.attributes.push_back({"vertex_color", false, read_vectors<Vec3>(stream, vertices, doubles)});
         mesh.triangles = stream.values<std::array<uint, 3>>(triangles);
         stream.finish();
         return file;

@@ -155,7 +155,8 @@ private:
         common_.group = static_cast<uint>(scene_.groups.size());
         place(Transform());
         scene_.groups.push_back({common_.id, common_.where});
-        scene_.instances.push_back({common_.id, common_.where, *common_.group, to_world.relative_to(reader_.index().origins().world.place)});
+        scene_.instances.push_back(
+            {common_.id, common_.where, *common_.group, to_world.relative_to(reader_.index().origins().world.place)});
     }
 
     // Where the shape's own origin is far from all that is around the local one, places of the shape are counted from the

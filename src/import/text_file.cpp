@@ -68,7 +68,8 @@ std::string read_text_file(const std::filesystem::path& file, const SourceLocati
     }
     if (const std::string fault = not_a_regular_file(file); !fault.empty()) {
         const bool redirect = kind == FileKind::regular_or_standard_input && fault.starts_with("is a device");
-        throw SceneError(wanted_at, (fault == "not found" ? "file '" : "'") + file.string() + "' " + fault + (redirect ? "; a scene from a pipe is named - and redirected with <" : ""));
+        throw SceneError(wanted_at, (fault == "not found" ? "file '" : "'") + file.string() + "' " + fault +
+                                        (redirect ? "; a scene from a pipe is named - and redirected with <" : ""));
     }
     std::error_code failed;
     const std::uintmax_t size = std::filesystem::file_size(file, failed);

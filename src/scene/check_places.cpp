@@ -24,7 +24,8 @@ bool in_range(Vec3 v)
 void require_in_range(const Bounds& bounds, const SourceLocation& where, const char* what)
 {
     if (!bounds.empty() && in_range(bounds.lower) && in_range(bounds.upper)) return;
-    throw SceneError(where, std::string("the ") + what + " has a coordinate that is not finite or beyond 1e12: check its transform and the unit of length");
+    throw SceneError(where, std::string("the ") + what +
+                                " has a coordinate that is not finite or beyond 1e12: check its transform and the unit of length");
 }
 
 // Whether single precision can hold the normal, so that the hierarchy takes the triangle.
@@ -83,7 +84,8 @@ void check_places(const Scene& scene)
     }
     for (const InstanceDescription& instance : scene.instances) {
         const auto [open, close] = scene.sensor.shutter;
-        if (const Bounds& group = groups[instance.group]; !group.empty()) require_in_range(instance.to_world.box(group, open, close), instance.where, "instance");
+        if (const Bounds& group = groups[instance.group]; !group.empty())
+            require_in_range(instance.to_world.box(group, open, close), instance.where, "instance");
     }
     for (const EmitterDescription& emitter : scene.emitters)
         if (const auto place = std::visit(PlaceOfEmitter{}, emitter.model)) require_in_range({*place, *place}, emitter.where, "light");

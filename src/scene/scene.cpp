@@ -88,8 +88,7 @@ Bounds Scene::bounds() const
 {
     Bounds all;
     std::vector<Bounds> of_group(groups.size());
-    for (const auto& shape : shapes)
-        (shape.group ? of_group[*shape.group] : all).extend(shape.bounds());
+    for (const auto& shape : shapes) (shape.group ? of_group[*shape.group] : all).extend(shape.bounds());
     for (const auto& instance : instances) {
         const Bounds& group = of_group[instance.group];
         const auto [open, close] = sensor.shutter;

@@ -43,11 +43,14 @@ public:
         for (const auto& [x, y, z] : {Double3{-1, 0.125, 0}, Double3{1, 0.25, 0}, Double3{0, 0.75, -0.5}})
             corners += text(s + x) + " " + text(s + y) + " " + text(s + z) + "\n";
         std::string lines = corners;
-        for (std::size_t at = 0; (at = lines.find('\n', at)) != std::string::npos && at + 1 < lines.size();) lines.replace(at, 1, "\nv "), at += 3;
+        for (std::size_t at = 0; (at = lines.find('\n', at)) != std::string::npos && at + 1 < lines.size();)
+            lines.replace(at, 1, "\nv "), at += 3;
         folder_.write("baked.obj", "v " + lines + "f 1 2 3\n");
         folder_.write("own.obj", "v -.5 0 0\nv .5 0 0\nv 0 .5 0\nf 1 2 3\n");
-        folder_.write("baked.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face "
-                                   "1\nproperty list uchar int vertex_indices\nend_header\n" + corners + "3 " + triangle);
+        folder_.write("baked.ply",
+                      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face "
+                      "1\nproperty list uchar int vertex_indices\nend_header\n" +
+                          corners + "3 " + triangle);
     }
 
     LoadedScene load(const std::string& more = "") const
@@ -59,22 +62,23 @@ public:
         const auto file = [](const std::string& name) { return "<string name=\"filename\" value=\"" + name + "\"/>"; };
         return folder_.load(
             "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"shutter_close\" value=\"1\"/>" +
-            to_world("<lookat origin=\"" + text(s_) + " " + text(s_) + " " + text(s_ + 1) + "\" target=\"" + text(s_) + " " + text(s_) + " " +
-                     text(s_) + "\"/>") +
+            to_world("<lookat origin=\"" + text(s_) + " " + text(s_) + " " + text(s_ + 1) + "\" target=\"" + text(s_) + " " + text(s_) +
+                     " " + text(s_) + "\"/>") +
             "</sensor>" + shape("cube", "<boolean name=\"flip_normals\" value=\"true\"/>" + to_world(move)) +
             shape("rectangle", "<emitter type=\"area\"/>" + to_world("<scale value=\".25\"/><translate y=\".75\"/>" + move)) +
             shape("sphere", "<float name=\"radius\" value=\".25\"/><point name=\"center\" " + at(0.5, 0, 0)) +
             shape("sphere", to_world("<scale value=\".1\"/><translate x=\".3\"/>" + move)) +
-            shape("cylinder", "<float name=\"radius\" value=\".25\"/><point name=\"p0\" " + at(0, -0.5, 0) + "<point name=\"p1\" " + at(0, 0.5, 0)) +
+            shape("cylinder",
+                  "<float name=\"radius\" value=\".25\"/><point name=\"p0\" " + at(0, -0.5, 0) + "<point name=\"p1\" " + at(0, 0.5, 0)) +
             shape("disk", to_world("<scale value=\".2\"/>" + move)) + shape("obj", file("baked.obj")) + shape("ply", file("baked.ply")) +
-            shape("obj", file("own.obj") + to_world("<rotate y=\"1\" angle=\"20\"/>" + move)) +
-            "<shape type=\"shapegroup\" id=\"g\">" + shape("obj", file("own.obj")) + "</shape>" +
-            shape("instance", "<ref id=\"g\"/>" + to_world("<scale value=\".5\"/>" + move)) +
+            shape("obj", file("own.obj") + to_world("<rotate y=\"1\" angle=\"20\"/>" + move)) + "<shape type=\"shapegroup\" id=\"g\">" +
+            shape("obj", file("own.obj")) + "</shape>" + shape("instance", "<ref id=\"g\"/>" + to_world("<scale value=\".5\"/>" + move)) +
             shape("sphere", "<animation name=\"to_world\"><transform time=\"0\"><scale value=\".1\"/>" + move +
-                                "</transform><transform time=\"1\"><scale value=\".1\"/><translate x=\".5\"/>" + move + "</transform></animation>") +
-            "<emitter type=\"point\"><point name=\"position\" " + at(0, 0.5, 0.5) + "</emitter>" +
-            "<emitter type=\"spot\">" + to_world("<rotate x=\"1\" angle=\"30\"/>" + move) + "</emitter>" +
-            "<emitter type=\"directional\">" + to_world("<rotate x=\"1\" angle=\"30\"/>" + move) + "</emitter>" + more + "</scene>");
+                                "</transform><transform time=\"1\"><scale value=\".1\"/><translate x=\".5\"/>" + move +
+                                "</transform></animation>") +
+            "<emitter type=\"point\"><point name=\"position\" " + at(0, 0.5, 0.5) + "</emitter>" + "<emitter type=\"spot\">" +
+            to_world("<rotate x=\"1\" angle=\"30\"/>" + move) + "</emitter>" + "<emitter type=\"directional\">" +
+            to_world("<rotate x=\"1\" angle=\"30\"/>" + move) + "</emitter>" + more + "</scene>");
     }
 
 private:
@@ -101,7 +105,8 @@ void expect_same_places(const Scene& a, const Scene& b, float tolerance)
     ASSERT_EQ(a.emitters.size(), b.emitters.size());
     expect_near(std::get<PointEmitter>(a.emitters[0].model).position, std::get<PointEmitter>(b.emitters[0].model).position, tolerance);
     expect_near(std::get<SpotEmitter>(a.emitters[1].model).position, std::get<SpotEmitter>(b.emitters[1].model).position, tolerance);
-    expect_near(std::get<DirectionalEmitter>(a.emitters[2].model).direction, std::get<DirectionalEmitter>(b.emitters[2].model).direction, 1e-6f);
+    expect_near(std::get<DirectionalEmitter>(a.emitters[2].model).direction, std::get<DirectionalEmitter>(b.emitters[2].model).direction,
+                1e-6f);
     expect_near(a.sensor.position, b.sensor.position, tolerance);
     expect_near(a.sensor.axis_z, b.sensor.axis_z, 1e-6f);
 }
@@ -117,7 +122,8 @@ TEST(ImportFarScenes, AreTheSameAsNearTheOrigin)
         EXPECT_EQ(far.scene.origin, (Double3{s, s, s}));
         // Decimal fractions lose what double precision has not at 1e9.
         expect_same_places(near.scene, far.scene, s < 1e9 ? 1e-6f : 1e-5f);
-        EXPECT_THAT(far.warnings, ElementsAre(AllOf(HasSubstr("scene.xml: the scene is far from the origin"), HasSubstr("counted from ("))));
+        EXPECT_THAT(far.warnings,
+                    ElementsAre(AllOf(HasSubstr("scene.xml: the scene is far from the origin"), HasSubstr("counted from ("))));
     }
 }
 
@@ -138,7 +144,8 @@ TEST(ImportFarScenes, OnlyWhatIsFarForItsSizeMoves)
 {
     const auto at = [](double x) {
         return SceneFolder().load("<scene version=\"3.0.0\"><sensor type=\"perspective\"/>" +
-                                  shape("sphere", "<emitter type=\"area\"/>" + to_world("<translate x=\"" + text(x) + "\"/>")) + "</scene>");
+                                  shape("sphere", "<emitter type=\"area\"/>" + to_world("<translate x=\"" + text(x) + "\"/>")) +
+                                  "</scene>");
     };
     const float radius = std::sqrt(3.0f); // of the box
     EXPECT_EQ(at(15.9 * radius).scene.origin, (Double3{0, 0, 0}));
@@ -171,8 +178,9 @@ TEST(ImportFarScenes, GroupsHaveTheirOwnOrigin)
 TEST(ImportFarScenes, FilesOfSinglePrecisionSayWhatTheyLost)
 {
     const SceneFolder folder;
-    std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face "
-                      "1\nproperty list uchar int vertex_indices\nend_header\n";
+    std::string ply =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face "
+        "1\nproperty list uchar int vertex_indices\nend_header\n";
     const auto put = [&](auto value) { ply.append(reinterpret_cast<const char*>(&value), sizeof value); };
     for (const float c : {1e6f, 1e6f, 0.f, 1e6f + 2, 1e6f, 0.f, 1e6f, 1e6f + 2, 0.f}) put(c);
     put(static_cast<unsigned char>(3));
@@ -180,7 +188,8 @@ TEST(ImportFarScenes, FilesOfSinglePrecisionSayWhatTheyLost)
     folder.write("m.ply", ply);
     const auto loaded = folder.load("<scene version=\"3.0.0\"><sensor type=\"perspective\"/>\n" +
                                     shape("ply", "<string name=\"filename\" value=\"m.ply\"/><emitter type=\"area\"/>") + "</scene>");
-    EXPECT_THAT(loaded.warnings, ElementsAre(AllOf(HasSubstr("scene.xml:2: the vertices of"), HasSubstr("m.ply are 32-bit numbers up to 1e+06, in steps of 0.119")),
+    EXPECT_THAT(loaded.warnings, ElementsAre(AllOf(HasSubstr("scene.xml:2: the vertices of"),
+                                                   HasSubstr("m.ply are 32-bit numbers up to 1e+06, in steps of 0.119")),
                                              HasSubstr("far from the origin")));
     EXPECT_THAT(loaded.scene.origin, ElementsAre(1000002, 1000002, 0)) << "the middle is at 1000001, the radius 1.4";
 }

@@ -2,9 +2,9 @@
 #include "unit/scene_folder.h"
 
 #include <gmock/gmock.h>
-#include <sys/stat.h>
 #include <iostream>
 #include <sstream>
+#include <sys/stat.h>
 
 namespace
 {

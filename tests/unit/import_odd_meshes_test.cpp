@@ -27,8 +27,10 @@ const std::string face_normals = "<boolean name=\"face_normals\" value=\"true\"/
 std::string ply(const std::string& more_of_vertices, const std::string& vertices, const std::string& faces, int face_count)
 {
     return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n" + more_of_vertices +
-           "element face " + std::to_string(face_count) + "\nproperty list uchar int vertex_indices\nproperty uchar red\nproperty uchar "
-           "green\nproperty uchar blue\nend_header\n" + vertices + faces;
+           "element face " + std::to_string(face_count) +
+           "\nproperty list uchar int vertex_indices\nproperty uchar red\nproperty uchar "
+           "green\nproperty uchar blue\nend_header\n" +
+           vertices + faces;
 }
 
 // Where the first triangle faces, and that of what its normals say.
@@ -90,7 +92,8 @@ TEST(ImportOddMeshes, TurnedFacesKeepWhatIsTheirs)
                                                "3 0 1 2 255 0 0\n3 0 2 3 0 255 0\n", 2));
     expect_front(loaded, {0, 0, -1});
     const TriangleMesh& mesh = mesh_of(loaded);
-    for (std::size_t i = 0; i < 4; i++) sundog::testing::expect_uv(mesh.uvs[i], {0.5f + 0.5f * mesh.positions[i].x, 0.5f + 0.5f * mesh.positions[i].y});
+    for (std::size_t i = 0; i < 4; i++)
+        sundog::testing::expect_uv(mesh.uvs[i], {0.5f + 0.5f * mesh.positions[i].x, 0.5f + 0.5f * mesh.positions[i].y});
     expect_near(mesh.attributes.at(0).values.at(1), {0, 1, 0}, 0);
     EXPECT_THAT(loaded.warnings, ElementsAre(HasSubstr("2 of 2 triangles")));
 }
@@ -108,16 +111,15 @@ TEST(ImportOddMeshes, ByteOrderMarks)
     const sundog::testing::SceneFolder folder;
     folder.write("m.mtl", mark + "newmtl red\nKd 1 0 0\n");
     folder.write("m.obj", "mtllib m.mtl # beside\n" + quad + "usemtl red # of m.mtl\nf 1 2 3 4\n");
-    const auto loaded =
-        folder.load(sundog::testing::scene_with("<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/></shape>"));
+    const auto loaded = folder.load(sundog::testing::scene_with("<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/></shape>"));
     EXPECT_THAT(loaded.warnings, IsEmpty());
     EXPECT_EQ(loaded.scene.bsdfs.at(0).id, "red");
 }
 
 TEST(ImportOddMeshes, CornersOfObjFacesLackTheirParts)
 {
-    for (const char* face : {"f 1// 2// 3// 4//", "f 1/0/1 2/0/1 3/0/1 4/0/1", "f 1/1/ 2/1/ 3/1/ 4/1/", "f 1//0 2//1 3//1 4//1", "f 1/ 2/ 3/ 4/",
-                             "f 1 2 3 4 # a quad", "f 1 2 3 4# a quad", "f 1 2 3 4 #"}) {
+    for (const char* face : {"f 1// 2// 3// 4//", "f 1/0/1 2/0/1 3/0/1 4/0/1", "f 1/1/ 2/1/ 3/1/ 4/1/", "f 1//0 2//1 3//1 4//1",
+                             "f 1/ 2/ 3/ 4/", "f 1 2 3 4 # a quad", "f 1 2 3 4# a quad", "f 1 2 3 4 #"}) {
         const auto loaded = load_mesh("m.obj", quad + "vn 0 0 1 # up\nvt 0 0 # corner\n" + face + "\n");
         EXPECT_NEAR(surface_area(loaded.scene.shapes[0]), 4.0, 1e-6) << face;
         expect_front(loaded, {0, 0, 1});
@@ -164,7 +166,8 @@ TEST(ImportOddMeshes, ValuesThatAreNotFiniteWhereNobodyLooks)
     const std::string nan_normal = ply(normals, "0 0 0 0 0 nan\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n", "3 0 1 2 9 9 9\n", 1);
     EXPECT_EQ(mesh_of(load_mesh("m.ply", nan_normal, face_normals)).triangles.size(), 1u);
     EXPECT_THAT(error_of_mesh("m.ply", nan_normal), HasSubstr("m.ply: the normal of vertex 1 is not finite"));
-    EXPECT_THAT(error_of_mesh("m.ply", ply("", "0 0 0\n1 0 0\n1 oops 0\n0 0 0\n", "3 0 1 2 9 9 9\n", 1)), HasSubstr("'oops' is not a number"));
+    EXPECT_THAT(error_of_mesh("m.ply", ply("", "0 0 0\n1 0 0\n1 oops 0\n0 0 0\n", "3 0 1 2 9 9 9\n", 1)),
+                HasSubstr("'oops' is not a number"));
 }
 
 // An attribute may be what it likes, as long as no texture shows it.
@@ -175,7 +178,8 @@ TEST(ImportOddMeshes, AttributesThatAreNotFinite)
     EXPECT_EQ(mesh_of(load_mesh("m.ply", heat)).triangles.size(), 1u);
     const std::string shows = "<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"mesh_attribute\"><string name=\"name\" "
                               "value=\"vertex_heat_color\"/></texture></bsdf>";
-    EXPECT_THAT(error_of_mesh("m.ply", heat, shows), AllOf(HasSubstr("scene.xml:2: "), HasSubstr("vertex_heat_color"), HasSubstr("not finite")));
+    EXPECT_THAT(error_of_mesh("m.ply", heat, shows),
+                AllOf(HasSubstr("scene.xml:2: "), HasSubstr("vertex_heat_color"), HasSubstr("not finite")));
 }
 
 } // namespace
