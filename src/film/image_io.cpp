@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "base/log.h"
 #include "base/readable_file.h"
+#include "base/regular_file.h"
 #include "film/image_codec.h"
 #include "math/srgb.h"
 #include "scene/color_channels.h"
@@ -148,6 +149,7 @@ std::unique_ptr<ImageFile> open_image_file(const fs::path& path)
     std::error_code error;
     if (!fs::exists(path, error)) throw FileError(path.string() + ": cannot read, there is no such file");
     if (fs::is_directory(path, error)) throw FileError(path.string() + ": cannot read, it is a folder; give an image file");
+    if (const std::string fault = not_a_regular_file(path); !fault.empty()) throw FileError(path.string() + ": " + fault);
     check_file_readable(path);
     if (lower_ending(path) == ".pfm") return std::make_unique<PfmFile>(path);
     return open_image(path, least_decoding_memory);

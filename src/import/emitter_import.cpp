@@ -27,13 +27,19 @@ void ignore_sampling_weight(ObjectReader& reader)
     reader.ignore("sampling_weight", "lights are chosen by their power");
 }
 
+// To places counted from the local origin. Directions know of none.
+Transform read_placement(ObjectReader& reader)
+{
+    return reader.transform("to_world").relative_to(reader.index().origins().world.place);
+}
+
 PointEmitter read_point(ObjectReader& reader)
 {
     PointEmitter emitter;
     if (reader.has("position") && reader.has("to_world"))
         throw SceneError(reader.where_of("to_world"), "give a point emitter either position or to_world, not both");
-    const Transform to_world = reader.transform("to_world");
-    emitter.position = reader.vector("position").value_or(to_world.point({0, 0, 0}));
+    const Transform to_world = read_placement(reader);
+    emitter.position = reader.vector("position", reader.index().origins().world.place).value_or(to_world.point({0, 0, 0}));
     check_position(emitter.position, reader.where_of(reader.has("position") ? "position" : "to_world"), "the light");
     emitter.intensity = reader.color("intensity", {1, 1, 1}, ColorRole::emission);
     return emitter;
@@ -51,7 +57,7 @@ void set_axes(const Transform& to_world, const SourceLocation& where, Vec3& x, V
 ProjectorEmitter read_projector(ObjectReader& reader, TextureImporter& textures)
 {
     ProjectorEmitter emitter;
-    const Transform to_world = reader.transform("to_world");
+    const Transform to_world = read_placement(reader);
     set_axes(to_world, reader.where_of("to_world"), emitter.axis_x, emitter.axis_y, emitter.axis_z);
     emitter.position = to_world.point({0, 0, 0});
     check_position(emitter.position, reader.where_of("to_world"), "the light");
@@ -70,7 +76,7 @@ ProjectorEmitter read_projector(ObjectReader& reader, TextureImporter& textures)
 SpotEmitter read_spot(ObjectReader& reader, TextureImporter& textures)
 {
     SpotEmitter emitter;
-    const Transform to_world = reader.transform("to_world");
+    const Transform to_world = read_placement(reader);
     emitter.position = to_world.point({0, 0, 0});
     check_position(emitter.position, reader.where_of("to_world"), "the light");
     emitter.direction = direction_of(to_world.vector({0, 0, 1}));
@@ -98,7 +104,7 @@ DirectionalEmitter read_directional(ObjectReader& reader)
     DirectionalEmitter emitter;
     if (reader.has("direction") && reader.has("to_world"))
         throw SceneError(reader.where_of("to_world"), "give a directional emitter either direction or to_world, not both");
-    const Transform to_world = reader.transform("to_world");
+    const Transform to_world = read_placement(reader);
     const Vec3 direction = reader.vector("direction").value_or(to_world.vector({0, 0, 1}));
     if (direction == Vec3{0, 0, 0}) throw SceneError(reader.where_of("direction"), "direction of a directional emitter must not be zero");
     emitter.direction = direction_of(direction);
@@ -109,7 +115,7 @@ DirectionalEmitter read_directional(ObjectReader& reader)
 CollimatedEmitter read_collimated(ObjectReader& reader)
 {
     CollimatedEmitter emitter;
-    const Transform to_world = reader.transform("to_world");
+    const Transform to_world = read_placement(reader);
     emitter.position = to_world.point({0, 0, 0});
     check_position(emitter.position, reader.where_of("to_world"), "the light");
     emitter.direction = direction_of(to_world.vector({0, 0, 1}));
@@ -123,7 +129,7 @@ EnvironmentEmitter read_environment(ObjectReader& reader, TextureImporter& textu
     if (reader.has("bitmap")) throw SceneError(reader.where_of("bitmap"), "an envmap takes its image from a file: give <string name=\"filename\">");
     emitter.image = textures.bitmaps().environment(read_bitmap_request(reader), reader.where_of("filename"));
     emitter.scale = static_cast<float>(reader.number_between("scale", 1.0, 0.0, largest_emission));
-    const Transform to_world = reader.transform("to_world");
+    const Transform to_world = read_placement(reader);
     set_axes(to_world, reader.where_of("to_world"), emitter.axis_x, emitter.axis_y, emitter.axis_z);
     for (const char* name : {"mis_compensation", "cache"}) reader.ignore(name, "it does not change the image");
     return emitter;

@@ -21,8 +21,12 @@ public:
     InflateStream(const InflateStream&) = delete;
     InflateStream& operator=(const InflateStream&) = delete;
 
-    // Fills the buffer. Throws SceneError at `file` for damaged data and data that ends before.
+    // Fills the buffer. Throws SceneError at `file` for damaged data, data that ends before, and data that expands to more
+    // than a mesh can.
     void read(void* buffer, std::size_t size);
+
+    // Reads on to the end of the deflated data, and so has its checksum (Adler-32) verified. Throws SceneError as read().
+    void finish();
 
     template <class T> T value()
     {
@@ -45,7 +49,13 @@ public:
     }
 
 private:
+    int inflate_some(Bytef* target, std::size_t size, std::size_t& got); // zlib's status
+    void check(int status, std::size_t got);
+
     z_stream stream_{};
+    std::uint64_t read_ = 0; // bytes, inflated
+    bool ended_ = false;
+    std::size_t deflated_size_;
     std::string_view rest_; // not yet given to zlib, whose counts have 32 bits
     SourceLocation where_;
 };

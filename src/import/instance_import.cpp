@@ -52,11 +52,14 @@ void InstanceImporter::import_instance(const XmlElement& element)
     InstanceDescription instance;
     instance.id = id_of(element);
     instance.where = element.where;
-    instance.to_world = read_to_world(reader, scene_.sensor.shutter);
+    instance.to_world = read_to_world(reader, scene_.sensor.shutter).relative_to(index_.origins().world.place);
     reader.finish();
     const auto shown = import_group(*group->object);
     if (!shown) return;
     instance.group = *shown;
+    // Of a group whose instances move there is none.
+    if (const LocalOrigin origin = index_.origins().of(instance.group); origin.is_set())
+        instance.to_world = instance.to_world.at(0.0) * Transform::translate(origin.place);
     scene_.instances.push_back(std::move(instance));
 }
 
@@ -89,9 +92,7 @@ void InstanceImporter::import_member(const NestedObject& member, uint group)
         reader.animation("to_world").moves(scene_.sensor.shutter.open, scene_.sensor.shutter.close))
         throw SceneError(reader.where_of("to_world"),
                          "a shape inside a shapegroup cannot move by itself: give the <animation> to its instances");
-    const std::size_t first = scene_.shapes.size();
-    import_shape(*member.object, index_, bsdfs_, textures_, scene_);
-    for (std::size_t i = first; i < scene_.shapes.size(); i++) scene_.shapes[i].group = group;
+    import_shape(*member.object, index_, bsdfs_, textures_, scene_, group);
 }
 
 } // namespace sundog

@@ -12,6 +12,11 @@ namespace sundog
 namespace
 {
 
+bool is_finite(Vec2 v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y);
+}
+
 // Whether the height over the longest edge is lost in the rounding of double precision. Thin triangles of
 // float vertices stay.
 bool is_degenerate(const TriangleMesh& mesh, const std::array<uint, 3>& t)
@@ -39,18 +44,23 @@ void transform_mesh(TriangleMesh& mesh, const Transform& to_world, bool flip)
         for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
 }
 
-void require_finite_vertices(const TriangleMesh& mesh, const SourceLocation& where, const std::string& file)
+void require_finite_vertices(TriangleMesh& mesh, const SourceLocation& where, const std::string& file)
 {
-    for (std::size_t i = 0; i < mesh.positions.size(); i++)
-        if (!is_finite(mesh.positions[i]))
-            throw SceneError(where, "vertex " + std::to_string(i + 1) + " of " + file + " is not finite: repair the mesh or its transform");
-    for (std::size_t i = 0; i < mesh.normals.size(); i++)
-        if (!is_finite(mesh.normals[i]))
-            throw SceneError(where, "the normal of vertex " + std::to_string(i + 1) + " of " + file + " is not finite: repair the mesh");
-    for (std::size_t i = 0; i < mesh.uvs.size(); i++)
-        if (!std::isfinite(mesh.uvs[i].x) || !std::isfinite(mesh.uvs[i].y))
-            throw SceneError(where, "the texture coordinate of vertex " + std::to_string(i + 1) + " of " + file +
-                                        " is not finite: repair the mesh");
+    std::vector<bool> used(mesh.positions.size());
+    for (const auto& triangle : mesh.triangles)
+        for (uint v : triangle) used[v] = true;
+    const auto check = [&](auto& values, const char* what, const char* cure) {
+        for (std::size_t i = 0; i < values.size(); i++) {
+            if (is_finite(values[i])) continue;
+            if (used[i])
+                throw SceneError(where, what + std::to_string(i + 1) + (file.empty() ? "" : " of " + file) +
+                                            " is not finite: repair the mesh" + cure);
+            values[i] = {};
+        }
+    };
+    check(mesh.positions, "vertex ", " or its transform");
+    check(mesh.normals, "the normal of vertex ", "");
+    check(mesh.uvs, "the texture coordinate of vertex ", "");
 }
 
 void require_valid_indices(const TriangleMesh& mesh, const SourceLocation& where, const std::string& file)

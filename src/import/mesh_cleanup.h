@@ -12,9 +12,10 @@ namespace sundog
 // reflection, unless `flip` turns the surface inside out.
 void transform_mesh(TriangleMesh& mesh, const Transform& to_world, bool flip);
 
-// Throws SceneError naming the first vertex with an infinite or NaN coordinate, of position, normal or texture. Vertices
-// count from 1, as in OBJ.
-void require_finite_vertices(const TriangleMesh& mesh, const SourceLocation& where, const std::string& file);
+// Throws SceneError naming the first vertex with an infinite or NaN coordinate, of position, normal or texture, that a
+// triangle uses. `file`: as the message names it; empty where `where` does. What no triangle uses becomes 0 where it is not finite.
+// Vertices count from 1, as in OBJ.
+void require_finite_vertices(TriangleMesh& mesh, const SourceLocation& where, const std::string& file);
 
 // Throws SceneError naming the first triangle with a vertex index out of range.
 void require_valid_indices(const TriangleMesh& mesh, const SourceLocation& where, const std::string& file);

@@ -26,6 +26,21 @@ Double3 triangle_normal(const TriangleMesh& mesh, const std::array<uint, 3>& t)
     return n;
 }
 
+bool is_opposed(const TriangleMesh& mesh, const std::array<uint, 3>& t)
+{
+    const Double3 n = triangle_normal(mesh, t);
+    int opposed = 0, given = 0;
+    for (const uint v : t) {
+        const Vec3 normal = mesh.normals[v];
+        const Double3 at{normal.x, normal.y, normal.z};
+        const double length = std::sqrt(dot(at, at));
+        constexpr double rounding = 1e-5; // of a cosine: of a normal along the face
+        if (length > 0.0) given++;
+        if (dot(n, at) < -rounding * length) opposed++;
+    }
+    return 2 * opposed > given;
+}
+
 void add_normals(const TriangleMesh& mesh, std::vector<SumAtVertex>& at)
 {
     for (const auto& t : mesh.triangles) {
@@ -76,6 +91,24 @@ struct CornerOrder {
 };
 
 } // namespace
+
+bool has_opposed_faces(const TriangleMesh& mesh)
+{
+    return !mesh.normals.empty() &&
+           std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) { return is_opposed(mesh, t); });
+}
+
+std::size_t turn_opposed_faces(TriangleMesh& mesh)
+{
+    if (mesh.normals.empty()) return 0;
+    std::size_t turned = 0;
+    for (auto& t : mesh.triangles) {
+        if (!is_opposed(mesh, t)) continue;
+        std::swap(t[1], t[2]);
+        turned++;
+    }
+    return turned;
+}
 
 void complete_normals(TriangleMesh& mesh)
 {

@@ -6,6 +6,12 @@
 namespace sundog
 {
 
+// Turns round the triangles that are opposed: most normals of their vertices, those of no length apart, point to the other
+// side than the winding says. Exporters write such meshes, and other renderers take the side from the normals. Returns how
+// many. No triangle may be degenerate.
+std::size_t turn_opposed_faces(TriangleMesh& mesh);
+bool has_opposed_faces(const TriangleMesh& mesh);
+
 // Fills in normals that are missing or of no length: the normals of the triangles around a vertex, weighted by their
 // angle there [Thuermer and Wuethrich 1998]. Makes all unit length. No triangle may be degenerate.
 void complete_normals(TriangleMesh& mesh);

@@ -59,15 +59,39 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, std::uint64_t 
     root.finish();
 }
 
+// Once more, from a nearer origin, where the first has shown that the scene is far from it.
+Scene import_scene(const XmlScene& xml, const std::string& file, const LoadOptions& options, std::vector<Warning>& warnings)
+{
+    constexpr int attempts = 4; // each knows better where a scene is that the last one saw in coarse steps
+    const std::vector<Warning> before = warnings;
+    LocalOrigins origins;
+    for (int attempt = 1;; attempt++) {
+        warnings = before;
+        const SceneIndex index(xml, warnings, origins, options.allow_missing);
+        Scene scene;
+        scene.file = file;
+        scene.origin = origins.world.place;
+        std::optional<LocalOrigins> nearer;
+        try {
+            import_objects(xml, index, options.texture_bytes, scene);
+            nearer = nearer_origins(origins, scene);
+        } catch (const LostFarAway& lost) {
+            if (attempt == attempts) throw;
+            nearer = nearer_origins(origins, lost);
+        }
+        if (!nearer || attempt == attempts) return scene;
+        origins = *nearer;
+    }
+}
+
 } // namespace
 
 LoadedScene load_scene(const std::filesystem::path& file, const LoadOptions& options)
 {
     LoadedScene loaded;
-    loaded.scene.file = file.string();
     const XmlScene xml = read_scene_xml(file, options.defines, loaded.warnings);
-    const SceneIndex index(xml, loaded.warnings, options.allow_missing);
-    import_objects(xml, index, options.texture_bytes, loaded.scene);
+    loaded.scene = import_scene(xml, file.string(), options, loaded.warnings);
+    warn_of_places(loaded.scene, loaded.warnings);
     validate_scene(loaded.scene, loaded.warnings);
     return loaded;
 }

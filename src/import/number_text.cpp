@@ -24,6 +24,13 @@ std::string number_text(double value)
     return shortest(value);
 }
 
+std::string rounded_text(double value)
+{
+    char buffer[64];
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 3);
+    return {buffer, end};
+}
+
 std::string number_text(float value)
 {
     // Rounded twice, from the text to a double to a float, a text that is close to the middle of two floats may end on

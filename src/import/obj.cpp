@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <unordered_map>
 
@@ -28,6 +29,40 @@ struct CornerHash {
     }
 };
 
+// What the lines of one kind define. Of those that are not finite the line is kept, for whoever uses one.
+template <class T> class ObjValues
+{
+public:
+    ObjValues(const char* kind, const std::string& file) : kind_(kind), file_(file) {}
+
+    void add(T value, int line)
+    {
+        if (values_.size() == static_cast<std::size_t>(std::numeric_limits<int>::max()))
+            throw SceneError({file_, line}, std::string("a mesh can have 2^31 of each kind of line at most, this is one more ") + kind_);
+        if (!all_finite(value)) lines_.emplace(values_.size(), line);
+        values_.push_back(value);
+    }
+
+    std::size_t size() const { return values_.size(); }
+
+    const T& at(int index) const
+    {
+        const auto i = static_cast<std::size_t>(index);
+        if (const auto bad = lines_.find(i); bad != lines_.end())
+            throw SceneError({file_, bad->second}, std::string(kind_) + " " + std::to_string(i + 1) + " is not finite: repair the mesh");
+        return values_[i];
+    }
+
+private:
+    static bool all_finite(Vec3 v) { return is_finite(v); }
+    static bool all_finite(Vec2 v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+
+    const char* kind_;
+    std::string file_;
+    std::vector<T> values_;
+    std::unordered_map<std::size_t, int> lines_;
+};
+
 class ObjReader
 {
 public:
@@ -39,7 +74,10 @@ public:
             where_.line++;
             read_line(next_line(text));
         }
-        if (faces_ == 0) throw SceneError({where_.file, 0}, "the mesh has no faces");
+        if (faces_ == few_corners_)
+            throw SceneError({where_.file, 0}, std::string("the mesh has no faces") + (faces_ > 0 ? " of three vertices or more" : ""));
+        if (few_corners_ > 0)
+            result_.warnings.emplace_back(std::to_string(few_corners_) + (few_corners_ == 1 ? " face" : " faces") + few_corners_dropped);
         result_.shapes = static_cast<std::size_t>(shape_) + (shape_has_faces_ ? 1 : 0);
         if (!has_uvs_) result_.mesh.uvs.clear();
         if (!has_normals_) result_.mesh.normals.clear();
@@ -54,32 +92,36 @@ private:
         std::size_t end = std::min(text.find('\n'), text.size());
         where_.line += continued_lines_;
         continued_lines_ = 0;
-        while (end < text.size() && continues(text.substr(0, end))) {
+        for (std::size_t begin = 0; end < text.size() && continues(text.substr(begin, end - begin));) {
             continued_lines_++;
-            end = std::min(text.find('\n', end + 1), text.size());
+            begin = end + 1;
+            end = std::min(text.find('\n', begin), text.size());
         }
         const std::string_view line = text.substr(0, end);
         text.remove_prefix(std::min(end + 1, text.size()));
         return line;
     }
 
+    // A comment ends with its line, also if that is a folder's name with a backslash at the end.
     static bool continues(std::string_view line)
     {
+        if (begin_of_comment(line) != std::string_view::npos) return false;
         if (line.ends_with('\r')) line.remove_suffix(1);
         return line.ends_with('\\');
     }
 
     void read_line(std::string_view line)
     {
+        line = without_byte_order_mark(line, {where_.file, 0}); // files that were joined have it in their midst
         const std::string_view word = next_word(line);
         if (word == "v")
-            positions_.push_back(read_triple("vertex", positions_.size(), line));
+            positions_.add(read_triple("vertex", positions_.size(), without_comment(line), options_.origin), where_.line);
         else if (word == "vn")
-            normals_.push_back(read_triple("normal", normals_.size(), line));
+            normals_.add(read_triple("normal", normals_.size(), without_comment(line)), where_.line);
         else if (word == "vt")
-            read_uv(line);
+            read_uv(without_comment(line));
         else if (word == "f")
-            read_face(line);
+            read_face(without_comment(line));
         else if (word == "g")
             begin_shape();
         else if (word == "usemtl")
@@ -87,6 +129,16 @@ private:
         else if (word == "mtllib" && options_.with_materials)
             append_materials(file_, rest_of(line), result_);
     }
+
+    // Where it begins, or npos. Numbers that are none can have a # too, as 1.#QNAN.
+    static std::size_t begin_of_comment(std::string_view line)
+    {
+        std::size_t begin = line.find('#');
+        while (begin != std::string_view::npos && begin > 0 && line[begin - 1] == '.') begin = line.find('#', begin + 1);
+        return begin;
+    }
+
+    static std::string_view without_comment(std::string_view line) { return line.substr(0, begin_of_comment(line)); }
 
     static std::string_view next_word(std::string_view& line)
     {
@@ -104,18 +156,20 @@ private:
         return line.substr(begin, line.find_last_not_of(" \t\r") + 1 - begin);
     }
 
-    float read_number(const char* kind, std::size_t index, std::string_view word, const char* wanted) const
+    // NaN for what is written as a number but is not a finite one: an error only where a face uses it.
+    float read_number(const char* kind, std::size_t index, std::string_view word, const char* wanted, double origin = 0.0) const
     {
         const auto value = parse_number(word);
-        if (value && std::isfinite(static_cast<float>(*value))) return static_cast<float>(*value);
+        if (value && std::isfinite(static_cast<float>(*value))) return static_cast<float>(*value - origin);
+        if (value || is_not_finite(word)) return std::numeric_limits<float>::quiet_NaN();
         throw SceneError(where_, std::string(kind) + " " + std::to_string(index + 1) + " must have " + wanted +
                                      (word.empty() ? "" : ", got '" + std::string(word) + "'"));
     }
 
-    Vec3 read_triple(const char* kind, std::size_t index, std::string_view line) const
+    Vec3 read_triple(const char* kind, std::size_t index, std::string_view line, const Double3& origin = {0, 0, 0}) const
     {
         std::array<float, 3> v{};
-        for (float& c : v) c = read_number(kind, index, next_word(line), "three finite numbers");
+        for (std::size_t i = 0; i < 3; i++) v[i] = read_number(kind, index, next_word(line), "three finite numbers", origin[i]);
         return {v[0], v[1], v[2]};
     }
 
@@ -125,7 +179,7 @@ private:
         const float u = read_number(kind, uvs_.size(), next_word(line), "finite numbers");
         const std::string_view second = next_word(line);
         const float v = second.empty() ? 0.0f : read_number(kind, uvs_.size(), second, "finite numbers");
-        uvs_.push_back({u, options_.flip_tex_coords ? 1.0f - v : v});
+        uvs_.add({u, options_.flip_tex_coords ? 1.0f - v : v}, where_.line);
     }
 
     void read_face(std::string_view line)
@@ -133,7 +187,10 @@ private:
         faces_++;
         corners_.clear();
         for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) corners_.push_back(read_corner(word));
-        if (corners_.size() < 3) throw SceneError(where_, "face " + std::to_string(faces_) + " has fewer than three vertices");
+        if (corners_.size() < 3) {
+            few_corners_++;
+            return;
+        }
         shape_has_faces_ = true;
         if (options_.shape_index && *options_.shape_index != shape_) return;
 
@@ -150,10 +207,16 @@ private:
         const std::size_t first = std::min(word.find('/'), word.size());
         const std::size_t second = std::min(word.find('/', first + 1), word.size());
         Corner corner{read_index(word.substr(0, first), positions_.size(), "vertex"), -1, -1};
-        if (first < word.size() && second > first + 1)
-            corner[1] = read_index(word.substr(first + 1, second - first - 1), uvs_.size(), "texture coordinate");
-        if (second < word.size()) corner[2] = read_index(word.substr(second + 1), normals_.size(), "normal");
+        if (first < word.size())
+            corner[1] = read_optional_index(word.substr(first + 1, second - first - 1), uvs_.size(), "texture coordinate");
+        if (second < word.size()) corner[2] = read_optional_index(word.substr(second + 1), normals_.size(), "normal");
         return corner;
+    }
+
+    // Exporters write 1//, 1/1/ and 1/0/1 for a corner that has none.
+    int read_optional_index(std::string_view text, std::size_t defined, const char* kind) const
+    {
+        return text.empty() || text == "0" ? -1 : read_index(text, defined, kind);
     }
 
     // Counted from 0.
@@ -174,10 +237,11 @@ private:
         TriangleMesh& mesh = result_.mesh;
         const auto [entry, added] = vertices_.emplace(corner, static_cast<uint>(mesh.positions.size()));
         if (added) {
-            const auto [position, uv, normal] = corner;
-            mesh.positions.push_back(positions_[static_cast<std::size_t>(position)]);
-            mesh.uvs.push_back(uv >= 0 ? uvs_[static_cast<std::size_t>(uv)] : Vec2{0, 0});
-            mesh.normals.push_back(normal >= 0 ? normals_[static_cast<std::size_t>(normal)] : Vec3{0, 0, 0});
+            const auto [position, uv, index] = corner;
+            const int normal = options_.with_normals ? index : -1;
+            mesh.positions.push_back(positions_.at(position));
+            mesh.uvs.push_back(uv >= 0 ? uvs_.at(uv) : Vec2{0, 0});
+            mesh.normals.push_back(normal >= 0 ? normals_.at(normal) : Vec3{0, 0, 0});
             has_uvs_ = has_uvs_ || uv >= 0;
             has_normals_ = has_normals_ || normal >= 0;
         }
@@ -197,6 +261,14 @@ private:
         material_ = entry->second;
     }
 
+    // -1 for a name that no library has; the last of several.
+    int find_material(std::string_view name) const
+    {
+        for (std::size_t i = result_.materials.size(); i > 0; i--)
+            if (result_.materials[i - 1].name == name) return static_cast<int>(i - 1);
+        return -1;
+    }
+
     // Names become numbers at the end, as a library may be named after its use.
     void assign_materials()
     {
@@ -206,9 +278,10 @@ private:
         }
         std::vector<int> number_of(used_materials_.size(), -1);
         for (const auto& [name, used] : used_materials_) {
-            for (std::size_t i = 0; i < result_.materials.size(); i++)
-                if (result_.materials[i].name == name) number_of[static_cast<std::size_t>(used)] = static_cast<int>(i);
-            if (number_of[static_cast<std::size_t>(used)] < 0)
+            int& number = number_of[static_cast<std::size_t>(used)];
+            number = find_material(name);
+            if (number < 0) number = find_material(rest_of(without_comment(name))); // names can have a # themselves
+            if (number < 0)
                 result_.warnings.emplace_back("material '" + name + "' is in none of the material libraries", WarningKind::approximated);
         }
         for (int& m : result_.material_of_triangle)
@@ -219,11 +292,11 @@ private:
     ObjOptions options_;
     SourceLocation where_;
     int continued_lines_ = 0; // of the last line
-    std::vector<Vec3> positions_, normals_;
-    std::vector<Vec2> uvs_;
+    ObjValues<Vec3> positions_{"vertex", where_.file}, normals_{"normal", where_.file};
+    ObjValues<Vec2> uvs_{"texture coordinate", where_.file};
     std::unordered_map<Corner, uint, CornerHash> vertices_;
     bool has_uvs_ = false, has_normals_ = false;
-    std::size_t faces_ = 0;
+    std::size_t faces_ = 0, few_corners_ = 0; // among them those of fewer than three
     int shape_ = 0;
     bool shape_has_faces_ = false;
     std::map<std::string, int> used_materials_;

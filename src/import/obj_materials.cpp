@@ -31,7 +31,8 @@ bool places_image(const tinyobj::texture_option_t& options)
 
 void append_library(const std::filesystem::path& file, ObjFile& result)
 {
-    std::istringstream stream(read_text_file(file, {}));
+    const std::string text = read_text_file(file, {});
+    std::istringstream stream{std::string(without_byte_order_mark(text, {file.string(), 0}))};
     std::map<std::string, int> numbers;
     std::vector<tinyobj::material_t> materials;
     std::string warning, error;
@@ -59,7 +60,10 @@ void append_materials(const std::filesystem::path& obj_file, std::string_view na
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(files[0], ignored)) {
         files.clear();
-        for (std::string_view name : tokens(names)) files.push_back(obj_file.parent_path() / name);
+        for (std::string_view name : tokens(names)) {
+            if (name.starts_with('#')) break; // a comment
+            files.push_back(obj_file.parent_path() / name);
+        }
     }
     for (const auto& file : files) {
         try {

@@ -150,19 +150,37 @@ std::string ObjectReader::text(std::string_view name, const std::string& fallbac
     throw SceneError(value ? value->where : where(), describe() + " needs a <string name=\"" + std::string(name) + "\" value=\"...\"/>");
 }
 
-std::optional<Vec3> ObjectReader::vector(std::string_view name)
+std::optional<Vec3> ObjectReader::vector(std::string_view name, const Double3& origin)
 {
     const XmlElement* value = take(name, {"point", "vector"});
     if (!value) return {};
-    const Vec3 v = to_vec3(xyz_attributes(*value, 0.0));
+    const Vec3 v = to_vec3(difference(xyz_attributes(*value, 0.0), origin));
     if (!is_finite(v)) throw SceneError(value->where, "'" + std::string(name) + "' is too large for 32-bit numbers");
     return v;
 }
 
+void ObjectReader::place(const Transform& to_world, const Double3& counted_from)
+{
+    placed_ = to_world;
+    counted_from_ = counted_from;
+}
+
+Vec3 ObjectReader::point(std::string_view name, const Double3& fallback)
+{
+    return vector(name, counted_from_).value_or(to_vec3(difference(fallback, counted_from_)));
+}
+
+Transform ObjectReader::counted_to_world()
+{
+    Transform to_world = transform("to_world");
+    if (counted_from_ != Double3{0, 0, 0}) to_world = to_world * Transform::translate(counted_from_);
+    return to_world;
+}
+
 Transform ObjectReader::transform(std::string_view name)
 {
+    if (placed_ && name == "to_world") return *placed_;
     if (const XmlElement* value = find(name); value && value->tag == "animation") {
-        if (placed_) return *placed_;
         throw SceneError(value->where, describe() + " cannot move, only shapes, instances and sensors can: give '" + std::string(name) +
                                            "' by a <transform>");
     }

@@ -40,11 +40,15 @@ public:
     int integer(std::string_view name, int fallback);
     bool boolean(std::string_view name, bool fallback);
     std::string text(std::string_view name, const std::string& fallback); // throws without a value and fallback ""
-    std::optional<Vec3> vector(std::string_view name);                    // <point> or <vector>
+    std::optional<Vec3> vector(std::string_view name, const Double3& origin = {0, 0, 0}); // <point> or <vector>, less the origin
     Transform transform(std::string_view name);                           // identity without one; throws for what moves
     AnimatedTransform animation(std::string_view name);                   // <transform> or <animation>
-    // What transform() returns in place of an <animation> from now on.
-    void place(const Transform& to_world) { placed_ = to_world; }
+    // What transform("to_world") returns from now on; and the place, in the space that it maps from, that places are
+    // counted from in double precision: those that point() reads, and those of files. The second maps what was counted.
+    void place(const Transform& to_world, const Double3& counted_from);
+    Vec3 point(std::string_view name, const Double3& fallback);
+    const Double3& counted_from() const { return counted_from_; }
+    Transform counted_to_world();
     Vec3 color(std::string_view name, Vec3 fallback, ColorRole role);
     // The index of refraction in a <float>, or named in a <string>.
     float ior(std::string_view name, const char* fallback);
@@ -78,6 +82,7 @@ private:
     std::map<std::string, const XmlElement*, std::less<>> by_name_; // the first of each name
     std::set<const XmlElement*> used_;
     std::optional<Transform> placed_;
+    Double3 counted_from_{0, 0, 0};
 };
 
 } // namespace sundog

@@ -75,15 +75,18 @@ private:
                 on_list(property, body.next_count(property, element, i));
                 continue;
             }
-            row_[k] = static_cast<float>(body.next(property.type));
-            if (!std::isfinite(row_[k])) body.fail(element_name(element, i) + " is not finite: repair the mesh");
+            row_[k] = body.next(property.type);
         }
         body.end_element();
     }
 
-    Vec3 triple(const std::array<std::size_t, 3>& properties) const
+    float number(std::size_t property) const { return static_cast<float>(row_[property]); }
+
+    Vec3 triple(const std::array<std::size_t, 3>& properties, const Double3& origin = {0, 0, 0}) const
     {
-        return {row_[properties[0]], row_[properties[1]], row_[properties[2]]};
+        std::array<float, 3> v{};
+        for (std::size_t i = 0; i < 3; i++) v[i] = static_cast<float>(row_[properties[i]] - origin[i]);
+        return {v[0], v[1], v[2]};
     }
 
     void read_vertices(const PlyElement& element)
@@ -102,7 +105,8 @@ private:
         const std::size_t first_attribute = begin_attributes(element, "vertex_", taken);
 
         body_.begin_elements(element);
-        row_.assign(element.properties.size(), 0.0f);
+        row_.assign(element.properties.size(), 0.0);
+        file_.single_precision = header_.format != PlyFormat::text && element.properties[position[0]].type == PlyType::float32;
         TriangleMesh& mesh = file_.mesh;
         mesh.positions.reserve(element.count);
         if (with_normals) mesh.normals.reserve(element.count);
@@ -111,9 +115,9 @@ private:
             read_row(body_, element, i, [&](const PlyProperty& list, std::size_t count) {
                 for (std::size_t k = 0; k < count; k++) body_.next(list.type);
             });
-            mesh.positions.push_back(triple(position));
+            mesh.positions.push_back(triple(position, options_.origin));
             if (with_normals) mesh.normals.push_back(triple(normal));
-            if (with_uvs) mesh.uvs.push_back({row_[uv[0]], options_.flip_tex_coords ? 1.0f - row_[uv[1]] : row_[uv[1]]});
+            if (with_uvs) mesh.uvs.push_back({number(uv[0]), options_.flip_tex_coords ? 1.0f - number(uv[1]) : number(uv[1])});
             append_attributes(element, first_attribute, 1);
         }
     }
@@ -123,10 +127,11 @@ private:
         const std::size_t indices = element.find_list({"vertex_indices", "vertex_index"});
         const std::size_t first_attribute = begin_attributes(element, "face_", {indices});
         body.begin_elements(element);
-        row_.assign(element.properties.size(), 0.0f);
+        row_.assign(element.properties.size(), 0.0);
         auto& triangles = file_.mesh.triangles;
         triangles.reserve(element.count);
         std::vector<uint> polygon;
+        std::size_t few_corners = 0; // faces of fewer than three
         for (std::size_t i = 0; i < element.count; i++) {
             read_row(body, element, i, [&](const PlyProperty& list, std::size_t count) {
                 if (&list == &element.properties[indices])
@@ -135,17 +140,21 @@ private:
                     for (std::size_t k = 0; k < count; k++) body.next(list.type);
             });
             const std::size_t before = triangles.size();
-            if (!append_polygon(file_.mesh.positions, polygon, triangles))
+            if (polygon.size() < 3)
+                few_corners++;
+            else if (!append_polygon(file_.mesh.positions, polygon, triangles))
                 body.fail(element_name(element, i) + " is concave and has more than " + std::to_string(max_concave_corners) +
                           " vertices: triangulate it");
             append_attributes(element, first_attribute, triangles.size() - before);
         }
+        if (few_corners == element.count) body.fail("the mesh has no faces of three vertices or more");
+        if (few_corners > 0)
+            file_.warnings.emplace_back(std::to_string(few_corners) + (few_corners == 1 ? " face" : " faces") + few_corners_dropped);
     }
 
     void read_polygon(PlyBody& body, const PlyElement& element, std::size_t i, const PlyProperty& list, std::size_t count,
                       std::vector<uint>& polygon)
     {
-        if (count < 3) body.fail(element_name(element, i) + " has fewer than three vertices");
         const auto vertices = static_cast<double>(header_.vertices);
         polygon.clear();
         for (std::size_t k = 0; k < count; k++) {
@@ -192,7 +201,7 @@ private:
     {
         const double largest = largest_integer(element.properties[property].type);
         const bool is_integer = largest > 0.0;
-        const float value = is_integer ? static_cast<float>(row_[property] / largest) : row_[property];
+        const float value = is_integer ? static_cast<float>(number(property) / largest) : number(property);
         // Mitsuba 3 decodes all integers, 0.6 only colours.
         const bool encoded = options_.colors == PlyColors::by_type ? is_integer : is_color && options_.colors == PlyColors::encoded;
         return encoded ? linear_from_srgb(value) : value;
@@ -202,7 +211,7 @@ private:
     PlyBody body_;
     PlyOptions options_;
     MeshFile file_;
-    std::vector<float> row_;            // of the element that is being read
+    std::vector<double> row_;           // of the element that is being read
     std::vector<PlyAttribute> sources_; // of its attributes
 };
 
@@ -210,7 +219,8 @@ private:
 
 MeshFile parse_ply(const std::filesystem::path& file, std::string_view content, const PlyOptions& options)
 {
-    return PlyReader({file.string(), 0}, content, options).read();
+    const SourceLocation where{file.string(), 0};
+    return PlyReader(where, without_byte_order_mark(content, where), options).read();
 }
 
 MeshFile load_ply(const std::filesystem::path& file, const SourceLocation& wanted_at, const PlyOptions& options)

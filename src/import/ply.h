@@ -19,6 +19,7 @@ enum class PlyColors {
 struct PlyOptions {
     bool flip_tex_coords = false; // v becomes 1 - v
     PlyColors colors = PlyColors::by_type;
+    Double3 origin{0, 0, 0}; // is subtracted from positions, in double precision
 };
 
 // The triangles of the file (polygons triangulated) and its vertices in their order: positions x y z; normals nx ny nz;
@@ -26,8 +27,9 @@ struct PlyOptions {
 // Vertices and faces may come in any order, with any properties, scalars or lists. What is not used is named in the
 // warnings. No more memory is taken than a small multiple of the file's size, whatever its header promises.
 // Throws SceneError: at `wanted_at` for an unreadable file, at the PLY file (and the line, within the header and in text
-// files) for a malformed header, missing vertices or faces, data that ends early, values that are not finite numbers,
-// faces of fewer than three vertices, concave ones of very many, and indices out of range.
+// files) for a malformed header, missing vertices or faces, data that ends early, values that are not numbers, concave
+// faces of very many vertices, and indices out of range. Faces of fewer than three vertices are dropped, with their count
+// among the warnings. Values that are not finite are left for whoever uses them.
 MeshFile load_ply(const std::filesystem::path& file, const SourceLocation& wanted_at, const PlyOptions& options);
 
 // The same for the content of a file named `file` in messages.

@@ -3,6 +3,7 @@
 #include "import/text_file.h"
 
 #include <cmath>
+#include <limits>
 
 namespace sundog
 {
@@ -77,7 +78,8 @@ double PlyBody::next_text()
     if (next_word_ == words_.size()) fail("fewer values in the line than the header says");
     const std::string_view word = words_[next_word_++];
     const auto value = parse_number(word);
-    if (!value) fail("'" + std::string(word) + "' is not a finite number");
+    if (!value && is_not_finite(word)) return std::numeric_limits<double>::quiet_NaN();
+    if (!value) fail("'" + std::string(word) + "' is not a number");
     return *value;
 }
 

@@ -20,8 +20,8 @@ bool is_object_tag(std::string_view tag)
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 
-SceneIndex::SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings, bool allow_missing)
-    : scene_(scene), warnings_(warnings), allow_missing_(allow_missing)
+SceneIndex::SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings, const LocalOrigins& origins, bool allow_missing)
+    : scene_(scene), warnings_(warnings), origins_(origins), allow_missing_(allow_missing)
 {
     std::set<std::string> referenced_ids;
     collect(scene.root, referenced_ids);

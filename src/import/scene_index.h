@@ -1,7 +1,9 @@
-// What the parts of an importer share: objects by id, files by name, and the list of warnings.
+// What the parts of an importer share: objects by id, files by name, where places are counted from,
+// and the list of warnings.
 #pragma once
 
 #include "base/warning.h"
+#include "import/local_origin.h"
 #include "import/xml_document.h"
 
 #include <map>
@@ -16,8 +18,8 @@ bool is_object_tag(std::string_view tag);
 class SceneIndex
 {
 public:
-    // Keeps references to both. Throws SceneError for an id that is given twice.
-    SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings, bool allow_missing = false);
+    // Keeps references to all. Throws SceneError for an id that is given twice.
+    SceneIndex(const XmlScene& scene, std::vector<Warning>& warnings, const LocalOrigins& origins, bool allow_missing = false);
 
     // The object that a <ref> means, through any <alias>. Throws SceneError for unknown ids.
     const XmlElement& resolve(const XmlElement& reference) const;
@@ -34,6 +36,7 @@ public:
     }
     void warn(Warning warning) const { warnings_.push_back(std::move(warning)); }
     bool legacy() const { return scene_.legacy; }
+    const LocalOrigins& origins() const { return origins_; }
 
     // `what` is not supported: a warning that says what stands in for it ("it is left out") where the user allows that, else
     // SceneError with the details (": use diffuse") as well.
@@ -47,6 +50,7 @@ private:
 
     const XmlScene& scene_;
     std::vector<Warning>& warnings_;
+    const LocalOrigins& origins_;
     bool allow_missing_;
     std::map<std::string, const XmlElement*, std::less<>> objects_; // an <alias> stands for itself
     std::set<const XmlElement*> referenced_;

@@ -1,6 +1,7 @@
 #include "import/scene_writer.h"
 
 #include "import/emitter_writer.h"
+#include "import/number_text.h"
 #include "import/sensor_writer.h"
 #include "import/shape_writer.h"
 #include "import/text_file.h"
@@ -36,10 +37,14 @@ void write_integrator(ObjectWriter root, const IntegratorRequest& request)
 std::string write_scene(const Scene& scene, const std::filesystem::path& files)
 {
     // Names every member, so that one that is added to Scene does not compile until it is written here.
-    const auto& [file, all_textures, all_bsdfs, shapes, groups, instances, emitters, sensor, film, integrator] = scene;
+    const auto& [file, origin, all_textures, all_bsdfs, shapes, groups, instances, emitters, sensor, film, integrator] = scene;
     pugi::xml_document document;
     pugi::xml_node node = document.append_child("scene");
     node.append_attribute("version").set_value("3.0.0");
+    if (origin != Double3{0, 0, 0}) {
+        const std::string place = number_text(origin[0]) + ", " + number_text(origin[1]) + ", " + number_text(origin[2]);
+        node.append_child(pugi::node_comment).set_value((" All places are relative to (" + place + ") of the original. ").c_str());
+    }
     ObjectWriter root(node);
     WrittenFiles written(files);
     WrittenIds ids;

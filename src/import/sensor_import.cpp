@@ -115,7 +115,7 @@ void read_clip_planes(ObjectReader& reader, Sensor& sensor)
 
 void read_perspective(ObjectReader& reader, const SceneIndex& index, const Film& film, Sensor& sensor)
 {
-    const AnimatedTransform to_world = read_to_world(reader, sensor.shutter);
+    const AnimatedTransform to_world = read_to_world(reader, sensor.shutter).relative_to(index.origins().world.place);
     const SourceLocation where = reader.where_of("to_world");
     bool scaled = false;
     for (const TransformKey& key : to_world.keys()) {
@@ -148,7 +148,7 @@ Vec3 orthogonal_scale(const Transform& to_world, const SourceLocation& where)
 // one axis more than the other.
 void read_orthographic(ObjectReader& reader, const SceneIndex& index, Sensor& sensor)
 {
-    const AnimatedTransform to_world = read_to_world(reader, sensor.shutter);
+    const AnimatedTransform to_world = read_to_world(reader, sensor.shutter).relative_to(index.origins().world.place);
     const SourceLocation where = reader.where_of("to_world");
     sensor.projection = Projection::orthographic;
     const std::vector<TransformKey> keys = to_world.keys();

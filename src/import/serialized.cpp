@@ -5,7 +5,6 @@
 
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 namespace sundog
@@ -37,7 +36,10 @@ template <class T> T number_at(std::string_view content, std::size_t offset)
 class SerializedReader
 {
 public:
-    SerializedReader(const std::filesystem::path& file, std::string_view content) : where_{file.string(), 0}, content_(content) {}
+    SerializedReader(const std::filesystem::path& file, std::string_view content, const Double3& origin)
+        : where_{file.string(), 0}, content_(content), origin_(origin)
+    {
+    }
 
     MeshFile read(const SourceLocation& wanted_at, int shape_index)
     {
@@ -77,12 +79,18 @@ private:
         return version_ == 4 ? number_at<std::uint64_t>(content_, place) : number_at<std::uint32_t>(content_, place);
     }
 
+    void skip_name(InflateStream& stream) const
+    {
+        constexpr int longest = 65536;
+        for (int i = 0; i < longest; i++)
+            if (stream.value<char>() == '\0') return;
+        fail("the name of the mesh is longer than 65536 bytes: is the file damaged?");
+    }
+
     MeshFile read_mesh(InflateStream& stream)
     {
         const auto flags = stream.value<std::uint32_t>();
-        if (version_ == 4)
-            while (stream.value<char>() != '\0') {
-            }
+        if (version_ == 4) skip_name(stream);
         const auto vertices = stream.value<std::uint64_t>();
         const auto triangles = stream.value<std::uint64_t>();
         // A file of 32-bit indices cannot say more; its arrays are read in blocks until it ends.
@@ -92,61 +100,56 @@ private:
         file.face_normals = (flags & has_face_normals) != 0;
         TriangleMesh& mesh = file.mesh;
         const bool doubles = (flags & in_doubles) != 0;
-        mesh.positions = read_triples(stream, vertices, doubles, "vertex");
-        if (flags & has_normals) mesh.normals = read_triples(stream, vertices, doubles, "the normal of vertex");
-        if (flags & has_uvs) mesh.uvs = read_uvs(stream, vertices, doubles);
-        if (flags & has_colors)
-            mesh.attributes.push_back({"vertex_color", false, read_triples(stream, vertices, doubles, "the colour of vertex")});
+        mesh.positions = read_vectors<Vec3>(stream, vertices, doubles, origin_);
+        file.single_precision = !doubles;
+        if (flags & has_normals) mesh.normals = read_vectors<Vec3>(stream, vertices, doubles);
+        if (flags & has_uvs) mesh.uvs = read_vectors<Vec2>(stream, vertices, doubles);
+        if (flags & has_colors) mesh.attributes.push_back({"vertex_color", false, read_vectors<Vec3>(stream, vertices, doubles)});
         mesh.triangles = stream.values<std::array<uint, 3>>(triangles);
+        stream.finish();
         return file;
     }
 
-    // `count` records of as many numbers each, as floats in one array.
-    std::vector<float> read_numbers(InflateStream& stream, std::size_t count, std::size_t numbers, bool doubles, const char* what) const
+    template <class T, class Number> static std::vector<T> read_records(InflateStream& stream, std::size_t count, const Double3& origin)
     {
-        std::vector<float> result;
-        if (doubles) {
-            for (const double d : stream.values<double>(count * numbers)) result.push_back(static_cast<float>(d));
-        } else {
-            result = stream.values<float>(count * numbers);
+        constexpr std::size_t numbers = sizeof(T) / sizeof(float), block = std::size_t{1} << 14; // records
+        std::vector<T> result;
+        std::vector<Number> read;
+        while (result.size() < count) {
+            read.resize(numbers * std::min(block, count - result.size()));
+            stream.read(read.data(), read.size() * sizeof(Number));
+            for (std::size_t i = 0; i < read.size(); i += numbers) {
+                std::array<float, numbers> record;
+                for (std::size_t k = 0; k < numbers; k++) record[k] = static_cast<float>(read[i + k] - origin[k]);
+                result.push_back(std::bit_cast<T>(record));
+            }
         }
-        for (std::size_t i = 0; i < result.size(); i++)
-            if (!std::isfinite(result[i]))
-                fail(std::string(what) + " " + std::to_string(i / numbers + 1) + " is not finite: repair the mesh");
         return result;
     }
 
-    std::vector<Vec3> read_triples(InflateStream& stream, std::size_t count, bool doubles, const char* what) const
+    template <class T>
+    static std::vector<T> read_vectors(InflateStream& stream, std::size_t count, bool doubles, const Double3& origin = {0, 0, 0})
     {
-        const std::vector<float> numbers = read_numbers(stream, count, 3, doubles, what);
-        std::vector<Vec3> result(count);
-        for (std::size_t i = 0; i < count; i++) result[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
-        return result;
-    }
-
-    std::vector<Vec2> read_uvs(InflateStream& stream, std::size_t count, bool doubles) const
-    {
-        const std::vector<float> numbers = read_numbers(stream, count, 2, doubles, "the texture coordinate of vertex");
-        std::vector<Vec2> result(count);
-        for (std::size_t i = 0; i < count; i++) result[i] = {numbers[2 * i], numbers[2 * i + 1]};
-        return result;
+        return doubles ? read_records<T, double>(stream, count, origin) : read_records<T, float>(stream, count, origin);
     }
 
     SourceLocation where_;
     std::string_view content_;
+    Double3 origin_;
     int version_ = 0;
 };
 
 } // namespace
 
-MeshFile parse_serialized(const std::filesystem::path& file, std::string_view content, const SourceLocation& wanted_at, int shape_index)
+MeshFile parse_serialized(const std::filesystem::path& file, std::string_view content, const SourceLocation& wanted_at, int shape_index,
+                          const Double3& origin)
 {
-    return SerializedReader(file, content).read(wanted_at, shape_index);
+    return SerializedReader(file, content, origin).read(wanted_at, shape_index);
 }
 
-MeshFile load_serialized(const std::filesystem::path& file, const SourceLocation& wanted_at, int shape_index)
+MeshFile load_serialized(const std::filesystem::path& file, const SourceLocation& wanted_at, int shape_index, const Double3& origin)
 {
-    return parse_serialized(file, read_text_file(file, wanted_at), wanted_at, shape_index);
+    return parse_serialized(file, read_text_file(file, wanted_at), wanted_at, shape_index, origin);
 }
 
 } // namespace sundog

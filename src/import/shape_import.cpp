@@ -18,14 +18,14 @@ namespace
 
 Sphere import_sphere(ObjectReader& reader)
 {
-    const Vec3 center = reader.vector("center").value_or(Vec3{0, 0, 0});
+    const Vec3 center = reader.point("center", {0, 0, 0});
     const double radius = reader.positive("radius", 1.0);
     const Transform to_world = reader.transform("to_world");
     const auto scale = to_world.uniform_scale();
     if (!scale)
         throw SceneError(reader.where_of("to_world"), "to_world of a sphere must scale evenly and not shear: use a mesh for an ellipsoid");
     Sphere sphere;
-    sphere.center = to_world.point(center);
+    sphere.center = reader.counted_to_world().point(center);
     sphere.radius = static_cast<float>(radius * *scale);
     sphere.flip_normals = reader.boolean("flip_normals", false);
     sphere.axis_x = direction_of(to_world.vector({1, 0, 0}));
@@ -62,7 +62,7 @@ std::pair<Vec3, Vec3> frame_around(Vec3 z, bool legacy)
 
 Cylinder import_cylinder(ObjectReader& reader)
 {
-    const Vec3 p0 = reader.vector("p0").value_or(Vec3{0, 0, 0}), p1 = reader.vector("p1").value_or(Vec3{0, 0, 1});
+    const Vec3 p0 = reader.point("p0", {0, 0, 0}), p1 = reader.point("p1", {0, 0, 1});
     const double radius = reader.positive("radius", 1.0);
     const Transform to_world = reader.transform("to_world");
     if (!(length(p1 - p0) > 0.0f) || !is_finite(p1 - p0))
@@ -74,7 +74,7 @@ Cylinder import_cylinder(ObjectReader& reader)
     const auto [axis_y, width_y] = direction_and_length(to_world.vector(y));
 
     Cylinder cylinder;
-    cylinder.start = to_world.point(p0);
+    cylinder.start = reader.counted_to_world().point(p0);
     cylinder.length = height * stretch;
     cylinder.radius = static_cast<float>(radius * width);
     if (!is_finite(cylinder.start) || !std::isfinite(cylinder.length) || !std::isfinite(cylinder.radius))
@@ -125,12 +125,14 @@ void leave_out(ObjectReader& reader)
 class ShapeImport
 {
 public:
-    ShapeImport(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, TextureImporter& textures, Scene& scene)
+    ShapeImport(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, TextureImporter& textures, Scene& scene,
+                std::optional<uint> group)
         : reader_(element, index), bsdfs_(bsdfs), textures_(textures), scene_(scene)
     {
         const std::string* id = element.attribute("id");
         common_.id = id ? *id : "";
         common_.where = element.where;
+        common_.group = group;
     }
 
     void run()
@@ -155,15 +157,27 @@ private:
     void read_placement(const std::optional<NestedObject>& emitter)
     {
         const AnimatedTransform to_world = read_to_world(reader_, scene_.sensor.shutter);
-        if (to_world.is_constant()) return reader_.place(to_world.at(0.0));
+        if (to_world.is_constant()) return place(to_world.at(0.0));
         if (emitter)
             throw SceneError(emitter->where,
                              "a shape that moves cannot emit light: let the light stand still, by a <transform> in place of "
                              "the <animation>");
-        reader_.place(Transform());
         common_.group = static_cast<uint>(scene_.groups.size());
+        place(Transform());
         scene_.groups.push_back({common_.id, common_.where});
-        scene_.instances.push_back({common_.id, common_.where, *common_.group, to_world});
+        scene_.instances.push_back(
+            {common_.id, common_.where, *common_.group, to_world.relative_to(reader_.index().origins().world.place)});
+    }
+
+    // Where the shape's own origin is far from all that is around the local one, places of the shape are counted from the
+    // latter, before they lose their digits.
+    void place(const Transform& to_world)
+    {
+        const LocalOrigin origin = reader_.index().origins().of(common_.group);
+        const Transform to_local = to_world.relative_to(origin.place);
+        const Double3 own = to_local.exact_point({0, 0, 0});
+        const bool far = origin.is_set() && std::sqrt(dot(own, own)) > far_in_radii * origin.radius;
+        reader_.place(to_local, far ? to_local.inverse().exact_point({0, 0, 0}) : Double3{0, 0, 0});
     }
 
     decltype(ShapeDescription::geometry) read_geometry(const std::string& type)
@@ -229,9 +243,10 @@ private:
 
 } // namespace
 
-void import_shape(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, TextureImporter& textures, Scene& scene)
+void import_shape(const XmlElement& element, const SceneIndex& index, BsdfImporter& bsdfs, TextureImporter& textures, Scene& scene,
+                  std::optional<uint> group)
 {
-    ShapeImport(element, index, bsdfs, textures, scene).run();
+    ShapeImport(element, index, bsdfs, textures, scene, group).run();
 }
 
 } // namespace sundog

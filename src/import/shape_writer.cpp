@@ -1,5 +1,6 @@
 #include "import/shape_writer.h"
 
+#include "import/mesh_normals.h"
 #include "math/double3.h"
 
 namespace sundog
@@ -73,6 +74,7 @@ public:
         ObjectWriter object = root_.object("shape", "ply", "", id_);
         object.text("filename", files_.add_mesh(mesh, number_));
         if (mesh.normals.empty()) object.boolean("face_normals", true);
+        if (has_opposed_faces(mesh)) object.boolean("turn_faces", false);
         return object;
     }
 

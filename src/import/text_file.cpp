@@ -1,9 +1,12 @@
 #include "import/text_file.h"
 
+#include "base/regular_file.h"
+
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iostream>
 
 namespace sundog
 {
@@ -58,20 +61,23 @@ std::string read_to_end(std::istream& stream)
 
 std::string read_text_file(const std::filesystem::path& file, const SourceLocation& wanted_at, FileKind kind)
 {
+    if (kind == FileKind::regular_or_standard_input && file == "-") {
+        std::string content = read_to_end(std::cin);
+        if (content.size() > largest_stream) refuse_size(file, wanted_at, largest_stream);
+        return content;
+    }
+    if (const std::string fault = not_a_regular_file(file); !fault.empty()) {
+        const bool redirect = kind == FileKind::regular_or_standard_input && fault.starts_with("is a device");
+        throw SceneError(wanted_at, (fault == "not found" ? "file '" : "'") + file.string() + "' " + fault +
+                                        (redirect ? "; a scene from a pipe is named - and redirected with <" : ""));
+    }
     std::error_code failed;
-    const auto status = std::filesystem::status(file, failed);
-    if (!std::filesystem::exists(status)) throw SceneError(wanted_at, "file '" + file.string() + "' not found");
-    if (std::filesystem::is_directory(status)) throw SceneError(wanted_at, "'" + file.string() + "' is a folder, not a file");
-    const bool regular = std::filesystem::is_regular_file(status);
-    if (!regular && kind == FileKind::regular)
-        throw SceneError(wanted_at, "'" + file.string() + "' is a device or a pipe: a scene can only refer to regular files");
-    const std::uintmax_t size = regular ? std::filesystem::file_size(file, failed) : largest_stream;
+    const std::uintmax_t size = std::filesystem::file_size(file, failed);
     if (!failed && size > largest_file) refuse_size(file, wanted_at, largest_file);
     std::ifstream stream(file, std::ios::binary);
     const bool open = stream.is_open();
-    std::string content = open && !failed ? (regular ? read_whole(stream, size) : read_to_end(stream)) : std::string();
+    std::string content = open && !failed ? read_whole(stream, size) : std::string();
     if (!open || stream.bad() || failed) throw SceneError(wanted_at, "file '" + file.string() + "' cannot be read: check its permissions");
-    if (!regular && content.size() > largest_stream) refuse_size(file, wanted_at, largest_stream);
     return content;
 }
 
@@ -82,6 +88,26 @@ std::optional<double> parse_number(std::string_view text)
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
     return value;
+}
+
+bool is_not_finite(std::string_view text)
+{
+    text = trimmed(text);
+    if (text.starts_with('-')) text.remove_prefix(1);
+    if (text.starts_with("1.#")) return true; // Microsoft's
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc::result_out_of_range) return end == text.data() + text.size();
+    const std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
+    return error == std::errc() && !std::isfinite(value) && (rest.empty() || rest.starts_with('('));
+}
+
+std::string_view without_byte_order_mark(std::string_view text, const SourceLocation& where)
+{
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.starts_with(std::string_view("\0\0\xfe\xff", 4)))
+        throw SceneError(where, "the file is UTF-16 or UTF-32 text: save it as UTF-8");
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    return text;
 }
 
 std::optional<long long> parse_integer(std::string_view text)

@@ -43,7 +43,7 @@ public:
     XmlScene read(const std::filesystem::path& file)
     {
         scene_.file = file.string();
-        const XmlFile xml(file, {file.string(), 0}, FileKind::regular_or_stream);
+        const XmlFile xml(file, {file.string(), 0}, FileKind::regular_or_standard_input);
         count_file(xml, {file.string(), 0});
         const pugi::xml_node root = xml.root();
         if (std::string_view(root.name()) != "scene")

@@ -299,6 +299,15 @@ double AnimatedTransform::inverse_stretch() const
     return largest;
 }
 
+// T alone knows of the origin, and is linear between keys.
+AnimatedTransform AnimatedTransform::relative_to(const Double3& origin) const
+{
+    if (is_constant()) return constant_.relative_to(origin);
+    AnimatedTransform moved = *this;
+    for (Key& key : moved.keys_) key.key.transform = key.key.transform.relative_to(origin);
+    return moved;
+}
+
 std::vector<TransformKey> AnimatedTransform::keys() const
 {
     if (keys_.empty()) return {{0.0, constant_}};

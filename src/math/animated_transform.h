@@ -42,6 +42,9 @@ public:
     double stretch() const;
     double inverse_stretch() const;
 
+    // As of Transform.
+    AnimatedTransform relative_to(const Double3& origin) const;
+
     std::vector<TransformKey> keys() const; // one, of time 0, where it is constant
     bool is_constant() const { return keys_.empty(); }
 

@@ -87,9 +87,14 @@ std::optional<Transform> Transform::look_at(Double3 origin, Double3 target, std:
 
 Vec3 Transform::point(Vec3 p) const
 {
+    return to_float(exact_point({p.x, p.y, p.z}));
+}
+
+Double3 Transform::exact_point(const Double3& p) const
+{
     Double3 r;
-    for (std::size_t i = 0; i < 3; i++) r[i] = m[i][0] * p.x + m[i][1] * p.y + m[i][2] * p.z + m[i][3];
-    return to_float(r);
+    for (std::size_t i = 0; i < 3; i++) r[i] = m[i][0] * p[0] + m[i][1] * p[1] + m[i][2] * p[2] + m[i][3];
+    return r;
 }
 
 Vec3 Transform::vector(Vec3 v) const
@@ -108,6 +113,13 @@ Vec3 Transform::normal(Vec3 n) const
     Double3 r;
     for (std::size_t i = 0; i < 3; i++) r[i] = sign * (yz[i] * n.x + zx[i] * n.y + xy[i] * n.z);
     return to_float(normalized(r));
+}
+
+Transform Transform::relative_to(const Double3& origin) const
+{
+    Transform t = *this;
+    for (std::size_t i = 0; i < 3; i++) t.m[i][3] -= origin[i];
+    return t;
 }
 
 Transform Transform::inverse() const

@@ -24,11 +24,14 @@ struct Transform {
     static std::optional<Transform> look_at(Double3 origin, Double3 target, std::optional<Double3> up);
 
     Vec3 point(Vec3 p) const;
+    Double3 exact_point(const Double3& p) const;
     Vec3 vector(Vec3 v) const;
     // Unit normal of the mapped surface whose normal was n: by the inverse transpose, so that what was
     // outside stays outside under reflections too.
     Vec3 normal(Vec3 n) const;
 
+    // The same map to places that are counted from `origin`; the bits of this one where that is 0.
+    Transform relative_to(const Double3& origin) const;
     // Of an affine map that is not singular.
     Transform inverse() const;
     // Box of the mapped box, empty for an empty one.

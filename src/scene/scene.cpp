@@ -49,6 +49,11 @@ Vec3 Disk::normal() const
     return flip_normals ? -n : n;
 }
 
+Bounds ShapeDescription::bounds() const
+{
+    return std::visit([](const auto& g) { return bounds_of(g); }, geometry);
+}
+
 double TextureDescription::aspect() const
 {
     const auto* bitmap = std::get_if<BitmapTexture>(&model);
@@ -83,8 +88,7 @@ Bounds Scene::bounds() const
 {
     Bounds all;
     std::vector<Bounds> of_group(groups.size());
-    for (const auto& shape : shapes)
-        (shape.group ? of_group[*shape.group] : all).extend(std::visit([](const auto& g) { return bounds_of(g); }, shape.geometry));
+    for (const auto& shape : shapes) (shape.group ? of_group[*shape.group] : all).extend(shape.bounds());
     for (const auto& instance : instances) {
         const Bounds& group = of_group[instance.group];
         const auto [open, close] = sensor.shutter;

@@ -7,6 +7,7 @@
 #include "base/errors.h"
 #include "math/animated_transform.h"
 #include "math/bounds.h"
+#include "math/double3.h"
 #include "math/vec3.h"
 #include "scene/dispersion.h"
 #include "scene/shutter.h"
@@ -285,6 +286,8 @@ struct ShapeDescription {
     uint bsdf = 0; // index into Scene::bsdfs
     std::optional<AreaEmitter> emitter;
     std::optional<uint> group = std::nullopt; // index into Scene::groups of the one it belongs to; else it lies in the world
+
+    Bounds bounds() const; // in the space of its group, or the world
 };
 
 // Shapes that are seen only where an instance places a copy of them. They name their group; none of them emits light.
@@ -440,6 +443,7 @@ struct IntegratorRequest {
 
 struct Scene {
     std::string file;
+    Double3 origin{0, 0, 0}; // where the world's is in the file: not 0 in a scene that is far away in its file
     std::vector<TextureDescription> textures;
     std::vector<BsdfDescription> bsdfs;
     std::vector<ShapeDescription> shapes; // of the world and of groups

@@ -1,5 +1,6 @@
 #include "scene/validate.h"
 
+#include "scene/check_places.h"
 #include "scene/flatten_environment.h"
 
 #include <algorithm>
@@ -129,6 +130,7 @@ void validate_scene(Scene& scene, std::vector<Warning>& warnings)
     if (scene.triangle_count() > max_primitives)
         throw SceneError({scene.file, 0},
                          "the scene has " + std::to_string(scene.triangle_count()) + " triangles; at most 2^30 can be rendered");
+    check_places(scene);
     std::optional<DarkLight> dark_light;
     check_area_lights(scene, warnings, dark_light);
     check_emitters(scene, warnings, dark_light);

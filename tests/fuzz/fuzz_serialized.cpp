@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const std::string file = inflated ? wrapped(data + 1, size - 1) : std::string(reinterpret_cast<const char*>(data), size);
         // The file's own last byte, by which its count of meshes ends, says which mesh is asked for.
         const int index = file.empty() || inflated ? 0 : static_cast<unsigned char>(file.back()) % 3;
-        fuzz::take_all_steps(std::move(parse_serialized("fuzz.serialized", file, {}, index).mesh));
+        fuzz::take_all_steps(std::move(parse_serialized("fuzz.serialized", file, {}, index, {0, 0, 0}).mesh));
     } catch (const SceneError&) {
     }
     return 0;

@@ -18,6 +18,7 @@ inline void take_all_steps(TriangleMesh mesh)
     std::vector<int> none;
     drop_degenerate_triangles(mesh, none);
     if (mesh.triangles.empty()) return;
+    turn_opposed_faces(mesh);
     TriangleMesh creased = mesh;
     smooth_up_to(creased, 0.5);
     complete_normals(mesh);

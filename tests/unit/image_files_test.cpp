@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <bit>
 #include <cmath>
@@ -263,4 +265,13 @@ TEST_F(ImageFiles, a_file_that_is_no_image_is_refused)
 #endif
 
 } // namespace
+// Nobody writes into it: opening it would wait for ever.
+TEST(ImageFiles, PipesAreNotOpened)
+{
+    const std::string pipe = (std::filesystem::temp_directory_path() / ("sundog_pipe_" + std::to_string(::getpid()) + ".pfm")).string();
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THROW(read_image(pipe), FileError);
+    std::filesystem::remove(pipe);
+}
+
 } // namespace sundog

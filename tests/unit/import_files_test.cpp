@@ -2,8 +2,9 @@
 #include "unit/scene_folder.h"
 
 #include <gmock/gmock.h>
+#include <iostream>
+#include <sstream>
 #include <sys/stat.h>
-#include <thread>
 
 namespace
 {
@@ -60,15 +61,36 @@ TEST(ImportFiles, DevicesAndPipesAreNotOpened)
     EXPECT_THAT(loaded.warnings[0].text, HasSubstr("regular files"));
 }
 
-TEST(ImportFiles, TheSceneItselfMayBeAPipe)
+TEST(ImportFiles, TheSceneItselfComesFromStandardInputByNameAlone)
 {
     const SceneFolder folder;
     const auto pipe = folder.path() / "scene.fifo";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-    std::thread writer([&] { std::ofstream(pipe) << sundog::testing::scene_with(""); });
-    const auto loaded = load_scene(pipe, {});
-    writer.join();
+    for (const std::filesystem::path& name : {pipe, std::filesystem::path("/dev/zero"), std::filesystem::path("/dev/stdin")}) {
+        try {
+            load_scene(name, {});
+            FAIL() << name;
+        } catch (const SceneError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(name == "/dev/stdin" ? "/dev/stdin" : "a scene from a pipe is named -"));
+        }
+    }
+    std::istringstream scene(sundog::testing::scene_with(""));
+    auto* const input = std::cin.rdbuf(scene.rdbuf());
+    const auto loaded = load_scene("-", {});
+    std::cin.rdbuf(input);
     EXPECT_EQ(loaded.scene.shapes.size(), 1u);
+}
+
+// A library of an OBJ file is beside it, and not looked for.
+TEST(ImportFiles, ImagesOfMaterialLibrariesAreRegularFilesToo)
+{
+    const SceneFolder folder;
+    ASSERT_EQ(::mkfifo((folder.path() / "pipe.png").c_str(), 0600), 0);
+    folder.write("m.mtl", "newmtl a\nmap_Kd pipe.png\n");
+    folder.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
+    const auto loaded = folder.load(sundog::testing::scene_with("<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/></shape>"));
+    ASSERT_EQ(loaded.warnings.size(), 1u);
+    EXPECT_THAT(loaded.warnings[0].text, HasSubstr("regular files"));
 }
 
 TEST(ImportFiles, ParametersWithinParametersCannotFillTheMemory)

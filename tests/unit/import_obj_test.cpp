@@ -41,7 +41,7 @@ TEST(ImportObj, TextureCoordinatesAreFlippedUnlessToldOtherwise)
     const auto legacy = load_mesh("q.obj", content, "<boolean name=\"flipTexCoords\" value=\"false\"/>", "0.6.0");
     expect_uv(mesh_of(legacy).uvs[1], {1, 0.25f});
     EXPECT_THAT(mesh_of(load_mesh("q.obj", quad + "vt 0 0\nf 1 2 3\n")).uvs, IsEmpty()) << "not used";
-    EXPECT_THAT(error_of_mesh("q.obj", quad + "vt 0 nan\nf 1 2 3\n"), HasSubstr("q.obj:5: texture coordinate 1"));
+    EXPECT_THAT(error_of_mesh("q.obj", quad + "vt 0 nan\nf 1/1 2/1 3/1\n"), HasSubstr("q.obj:5: texture coordinate 1"));
 }
 
 TEST(ImportObj, TextureSeamsSplitVertices)

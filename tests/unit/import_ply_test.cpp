@@ -251,7 +251,7 @@ TEST(ImportPly, FractionalAndNegativeIndices)
     const std::string head = ply_header("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 0\n";
     EXPECT_THAT(error_of_mesh("i.ply", head + "3 0 1 -1\n"), HasSubstr("i.ply:13: face 1 refers to vertex -1"));
     EXPECT_THAT(error_of_mesh("i.ply", head + "3 0 1 1.5\n"), HasSubstr("refers to vertex 1.5"));
-    EXPECT_THAT(error_of_mesh("i.ply", head + "2 0 1\n"), HasSubstr("fewer than three"));
+    EXPECT_THAT(error_of_mesh("i.ply", head + "2 0 1\n"), HasSubstr("no faces of three vertices or more"));
     EXPECT_THAT(error_of_mesh("i.ply", head + "4 0 1 2\n"), HasSubstr("fewer values"));
     EXPECT_THAT(error_of_mesh("i.ply", head + "3 0 1 2 0\n"), HasSubstr("more values"));
 }

@@ -200,8 +200,7 @@ TEST(ImportSerialized, TruncatedAndDamagedFilesNeverCrash)
     };
     const std::size_t stream = part.stream().size();
     for (std::size_t size = 0; size < whole.size(); size++) {
-        // zlib's checksum comes last and is not needed for the mesh.
-        EXPECT_TRUE(size >= stream - 12 || !loads(whole.substr(0, size), "")) << size;
+        EXPECT_TRUE(size >= stream || !loads(whole.substr(0, size), "")) << size;
         EXPECT_FALSE(loads(whole.substr(0, size), shape_index(1))) << size;
     }
     std::mt19937 random(11);
@@ -213,6 +212,51 @@ TEST(ImportSerialized, TruncatedAndDamagedFilesNeverCrash)
     }
     EXPECT_GT(loaded, 0) << "damage to the other mesh is harmless";
     EXPECT_LT(loaded, 400);
+}
+
+// Any bit: the checksum of the deflated data tells, where the data does not.
+TEST(ImportSerialized, FlippedBitsAreNoOtherMesh)
+{
+    Part part;
+    part.normals = part.uvs = part.colors = true;
+    const std::string file = file_of({part});
+    const auto loaded_whole = load_mesh("m.serialized", file);
+    const TriangleMesh& whole = mesh_of(loaded_whole);
+    std::size_t same = 0;
+    for (std::size_t bit = 0; bit < 8 * part.stream().size(); bit++) {
+        std::string damaged = file;
+        damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << bit % 8));
+        try {
+            // Some bits have no meaning: those that fill the last byte before the checksum.
+            const auto loaded = load_mesh("m.serialized", damaged);
+            const TriangleMesh& mesh = mesh_of(loaded);
+            EXPECT_EQ(mesh.positions, whole.positions) << bit;
+            EXPECT_EQ(mesh.normals, whole.normals) << bit;
+            EXPECT_EQ(mesh.triangles, whole.triangles) << bit;
+            EXPECT_EQ(mesh.attributes[0].values, whole.attributes[0].values) << bit;
+            same++;
+        } catch (const SceneError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("m.serialized: ")) << bit;
+        }
+    }
+    EXPECT_LT(same, 8u);
+}
+
+// A megabyte that expands to a gigabyte.
+TEST(ImportSerialized, DataThatExpandsLikeNoMesh)
+{
+    std::string zeros;
+    put<std::uint32_t>(zeros, 0x1000u);
+    zeros += '\0';
+    put<std::uint64_t>(zeros, 20000000);
+    put<std::uint64_t>(zeros, 1);
+    zeros.resize(300000000);
+    std::string file("\x1c\x04\x04\x00", 4);
+    EXPECT_THAT(error_of_mesh("m.serialized", file + deflated(zeros)), HasSubstr("m.serialized: the compressed mesh expands to more than"));
+    std::string name;
+    put<std::uint32_t>(name, 0x1000u);
+    name.resize(70000, 'n');
+    EXPECT_THAT(error_of_mesh("m.serialized", file + deflated(name)), HasSubstr("m.serialized: the name of the mesh is longer than"));
 }
 
 } // namespace
