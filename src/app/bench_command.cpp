@@ -80,7 +80,7 @@ ExitStatus bench(const BenchOptions& options)
     const std::string json = to_json(figures, device.info()).dump(2) + "\n";
     if (options.wants_json && file.empty()) std::cout << json;
     else print_table(figures);
-    if (!file.empty()) write_file_atomically(file, json);
+    if (!file.empty()) write_file(file, json);
     return ExitStatus::done;
 }
 

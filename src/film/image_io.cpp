@@ -2,6 +2,7 @@
 
 #include "base/atomic_file.h"
 #include "base/errors.h"
+#include "base/readable_file.h"
 #include "film/image_codec.h"
 
 #include <algorithm>
@@ -74,7 +75,7 @@ void write_image(const fs::path& path, const Image& image, float exposure_stops)
 {
     const ImageFormat format = format_to_write(path);
     const RgbChannels rgb = format == ImageFormat::exr ? RgbChannels{} : rgb_channels(image, path);
-    write_file_atomically(path, format == ImageFormat::pfm ? encode_pfm(image, rgb) : encode(format, image, rgb, exposure_stops, path));
+    write_file(path, format == ImageFormat::pfm ? encode_pfm(image, rgb) : encode(format, image, rgb, exposure_stops, path));
 }
 
 Image read_image(const fs::path& path)
@@ -82,10 +83,11 @@ Image read_image(const fs::path& path)
     std::error_code error;
     if (!fs::exists(path, error)) throw FileError(path.string() + ": cannot read, there is no such file");
     if (fs::is_directory(path, error)) throw FileError(path.string() + ": cannot read, it is a folder; give an image file");
+    check_file_readable(path);
     if (lower_ending(path) != ".pfm") return decode_file(path);
     std::ifstream file(path, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (!file.is_open() || file.bad()) throw FileError(path.string() + ": cannot read; check its permissions");
+    if (!file.is_open() || file.bad()) throw FileError(path.string() + ": cannot be read to its end");
     return decode_pfm(bytes, path);
 }
 

@@ -28,7 +28,7 @@ std::string WrittenFiles::add(const std::string& name, std::string_view bytes)
     std::error_code failed;
     std::filesystem::create_directory(folder_, failed);
     if (failed) throw FileError(folder_.string() + ": cannot make the folder: " + failed.message());
-    write_file_atomically(folder_ / name, bytes);
+    write_file(folder_ / name, bytes);
     return (folder_.filename() / name).generic_string();
 }
 
