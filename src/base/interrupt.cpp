@@ -3,22 +3,48 @@
 #include "base/errors.h"
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <unistd.h>
 
 namespace sundog {
 
 namespace {
 
+constexpr std::int64_t by_hand = 1'000'000'000; // ns between two signals that one hand sends
+
 std::atomic<bool> deferred{false};
 std::atomic<bool> requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "the signal handler needs it");
+std::atomic<std::int64_t> first_ctrl_c{0}; // ns; 0: none yet
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free, "the signal handler needs it");
+
+std::int64_t now()
+{
+    timespec time = {};
+    ::clock_gettime(CLOCK_MONOTONIC, &time);
+    return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
+}
+
+bool is_second_ctrl_c(int signal)
+{
+    if (signal != SIGINT) return false;
+    const std::int64_t first = first_ctrl_c;
+    if (first == 0) first_ctrl_c = now();
+    return first != 0 && now() - first >= by_hand;
+}
 
 // Calls only async-signal-safe functions.
-void on_signal(int)
+void on_signal(int signal)
 {
-    if (!deferred || requested) _exit(static_cast<int>(ExitStatus::interrupted));
-    requested = true;
+    const int error = errno;
+    if (!deferred && signal != SIGXFSZ) ::_exit(static_cast<int>(ExitStatus::interrupted));
+    if (deferred) {
+        if (is_second_ctrl_c(signal)) ::_exit(static_cast<int>(ExitStatus::interrupted));
+        requested = true;
+    }
+    errno = error;
 }
 
 } // namespace
@@ -29,8 +55,12 @@ void install_interrupt_handler()
     action.sa_handler = on_signal;
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) {
+        struct sigaction inherited = {};
+        sigaction(signal, nullptr, &inherited);
+        const bool outlives_terminal = signal == SIGHUP && inherited.sa_handler == SIG_IGN; // nohup
+        if (!outlives_terminal) sigaction(signal, &action, nullptr);
+    }
 }
 
 void defer_interrupts() { deferred = true; }

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <functional>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -24,16 +25,29 @@ spdlog::logger& logger()
     return instance;
 }
 
-std::function<void()>& before_line()
+// Lines come from any thread: none of them may use the action of a display that has ended.
+struct BeforeLine {
+    std::mutex mutex;
+    std::function<void()> action;
+};
+
+BeforeLine& before_line()
 {
-    static std::function<void()> action;
-    return action;
+    static BeforeLine instance;
+    return instance;
+}
+
+void set_before_line(std::function<void()> action)
+{
+    std::lock_guard lock(before_line().mutex);
+    before_line().action = std::move(action);
 }
 
 void print(spdlog::level::level_enum level, std::string_view kind, std::string_view message)
 {
     if (!logger().should_log(level)) return;
-    if (before_line()) before_line()();
+    std::lock_guard lock(before_line().mutex);
+    if (before_line().action) before_line().action();
     logger().log(level, "{}{}", kind, message);
 }
 
@@ -84,6 +98,8 @@ void log_warning(std::string_view message) { print(spdlog::level::warn, "warning
 void log_info(std::string_view message) { print(spdlog::level::info, "", message); }
 void log_debug(std::string_view message) { print(spdlog::level::debug, "debug: ", message); }
 
-void set_before_log_line(std::function<void()> action) { before_line() = std::move(action); }
+BeforeLogLine::BeforeLogLine(std::function<void()> action) { set_before_line(std::move(action)); }
+
+BeforeLogLine::~BeforeLogLine() { set_before_line({}); }
 
 } // namespace sundog

@@ -21,7 +21,14 @@ void log_warning(std::string_view message);
 void log_info(std::string_view message);
 void log_debug(std::string_view message);
 
-// Called before each line that is printed, so that a progress bar can clear itself. Empty: nothing.
-void set_before_log_line(std::function<void()> action);
+// While it lives, `action` is called before each line that is printed, so that a progress bar can clear itself. One at a time.
+class BeforeLogLine
+{
+public:
+    explicit BeforeLogLine(std::function<void()> action);
+    BeforeLogLine(const BeforeLogLine&) = delete;
+    BeforeLogLine& operator=(const BeforeLogLine&) = delete;
+    ~BeforeLogLine();
+};
 
 } // namespace sundog

@@ -182,12 +182,20 @@ TEST(ProgressReport, a_message_takes_the_bar_off_first)
     std::ostringstream out;
     Progress progress(ProgressMode::bar, {10, std::nullopt}, out, 80);
     progress.update(5, 1.0);
-    set_before_log_line([&] { progress.clear(); });
+    std::optional<BeforeLogLine> hook([&] { progress.clear(); });
     testing::internal::CaptureStderr();
     log_error("first line\nbuild log");
-    set_before_log_line({});
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "sundog: error: first line (-v shows more)\n");
     EXPECT_THAT(out.str(), ::testing::EndsWith("\r\x1b[2K"));
+
+    // Not once the display has ended.
+    hook.reset();
+    progress.update(6, 2.0);
+    const std::string drawn = out.str();
+    testing::internal::CaptureStderr();
+    log_error("second line");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "sundog: error: second line\n");
+    EXPECT_EQ(out.str(), drawn);
 }
 
 } // namespace
