@@ -1,5 +1,6 @@
 #include "device/binary_cache.h"
 
+#include "base/atomic_file.h"
 #include "base/hash.h"
 #include "base/log.h"
 #include "device/kernel.h"
@@ -11,8 +12,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-
-#include <unistd.h>
 
 namespace sundog
 {
@@ -53,6 +52,14 @@ std::string environment(const char* name)
     return value ? value : "";
 }
 
+// The first failure stands for those of all programs.
+void warn_once(const std::string& problem)
+{
+    static std::atomic<bool> warned = false;
+    if (warned.exchange(true)) return;
+    log_warning(fmt::format("kernels are not kept for other runs: {} (SUNDOG_CACHE_DIR=FOLDER chooses another place)", problem));
+}
+
 } // namespace
 
 std::string program_cache_directory()
@@ -66,6 +73,8 @@ std::string program_cache_directory()
 std::optional<std::string> load_cached_binary(const std::string& key)
 {
     if (program_cache_directory().empty()) return {};
+    std::error_code failed;
+    if (!fs::is_regular_file(file_of(key), failed)) return {}; // a folder would open, and fail to be read
     std::ifstream file(file_of(key), std::ios::binary);
     if (!file) return {};
     const std::string content((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
@@ -81,22 +90,16 @@ std::optional<std::string> load_cached_binary(const std::string& key)
 void store_cached_binary(const std::string& key, std::string_view binary)
 {
     if (program_cache_directory().empty()) return;
-    static std::atomic<unsigned> counter = 0;
     const fs::path target = file_of(key);
-    const fs::path beside = fmt::format("{}.{}.{}.tmp", target.string(), ::getpid(), counter++);
-    std::error_code error;
-    fs::create_directories(target.parent_path(), error);
     const FileHeader header = header_of(binary);
-    std::ofstream file(beside, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(&header), sizeof header);
-    file.write(binary.data(), std::streamsize(binary.size()));
-    file.close();
-    if (file) fs::rename(beside, target, error);
-    if (!file || error) {
-        std::error_code ignored;
-        fs::remove(beside, ignored);
-        log_debug(
-            fmt::format("cannot write the program cache {}: {}", target.string(), error ? error.message() : "no room or no permission"));
+    try {
+        fs::create_directories(target.parent_path());
+        AtomicFile file(target);
+        file.write({reinterpret_cast<const char*>(&header), sizeof header});
+        file.write(binary);
+        file.commit();
+    } catch (const std::exception& error) {
+        warn_once(error.what());
     }
 }
 

@@ -11,7 +11,7 @@ namespace sundog
 // The binary stored under the key, or nothing when there is none, or it is damaged, or cannot be read.
 std::optional<std::string> load_cached_binary(const std::string& key);
 
-// Writes beside and renames, so that readers see all or nothing. A failure is a debug message.
+// Writes beside and renames, so that readers see all or nothing. The first failure is a warning, and the render goes on without.
 void store_cached_binary(const std::string& key, std::string_view binary);
 
 // Forgets the key's binary: the driver refused it.

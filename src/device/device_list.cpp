@@ -1,7 +1,9 @@
 // Which devices there are, and which one a selector means.
 #include "base/errors.h"
+#include "base/log.h"
 #include "device/device_state.h"
 #include "device/environment.h"
+#include "device/pocl_cache.h"
 
 #include <fmt/format.h>
 
@@ -61,6 +63,7 @@ bool is_usable(const cl::Device& device)
 // Sorted by platform, so that the loader's order of directory entries does not matter.
 std::vector<FoundDevice> find_devices()
 {
+    provide_pocl_cache();
     std::vector<cl::Platform> platforms;
     if (cl::Platform::get(&platforms) != CL_SUCCESS) return {};
     std::vector<FoundDevice> found;
@@ -69,6 +72,8 @@ std::vector<FoundDevice> find_devices()
         if (platform.getDevices(CL_DEVICE_TYPE_ALL, &devices) != CL_SUCCESS) continue;
         for (const auto& device : devices)
             if (is_usable(device)) found.push_back({describe(platform, device), device});
+        if (platform.getInfo<CL_PLATFORM_NAME>().starts_with("Portable Computing Language"))
+            if (const std::string warning = take_pocl_cache_warning(); !warning.empty()) log_warning(warning);
     }
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.info.platform < b.info.platform; });
     for (std::size_t i = 0; i < found.size(); ++i) found[i].info.index = int(i);

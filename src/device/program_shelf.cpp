@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "device/binary_cache.h"
 #include "device/device_state.h"
+#include "device/pocl_cache.h"
 
 #include <fmt/format.h>
 
@@ -52,8 +53,8 @@ cl::Program from_source(Device::State& device, const std::string& name, const st
     code = program.build({device.device}, build_options);
     if (code == CL_SUCCESS) return program;
     const std::string log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.device);
-    throw DeviceError(fmt::format("clBuildProgram failed for {} on device '{}': {}; build log:\n{}", subject, device.info.name,
-                                  opencl_error_name(code), log));
+    throw DeviceError(fmt::format("clBuildProgram failed for {} on device '{}': {}{}; build log:\n{}", subject, device.info.name,
+                                  opencl_error_name(code), device.info.is_cpu ? pocl_cache_problem() : "", log));
 }
 
 // Nothing built for so long: the kernels of a render have all run.

@@ -50,7 +50,7 @@ bool in_range(const ParameterSpec& spec, double value) { return !is_bounded(spec
 std::string range_text(const ParameterSpec& spec)
 {
     if (!is_bounded(spec)) return {};
-    if (spec.maximum >= 1e15 || !std::isfinite(spec.maximum)) return fmt::format(" of at least {:g}", spec.minimum);
+    if (!std::isfinite(spec.maximum)) return fmt::format(" of at least {:g}", spec.minimum);
     return fmt::format(" from {:g} to {:g}", spec.minimum, spec.maximum);
 }
 
