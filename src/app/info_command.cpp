@@ -1,5 +1,6 @@
 // sundog info SCENE.xml [--dump FILE.xml]
 #include "app/commands.h"
+#include "app/output_conflicts.h"
 #include "app/option_values.h"
 #include "app/scene_summary.h"
 #include "base/atomic_file.h"
@@ -147,8 +148,7 @@ void check_dump(const InfoOptions& options)
         if (options.json) throw UsageError("--json and --dump - both want standard output: dump to a file");
         return;
     }
-    std::error_code failed;
-    if (std::filesystem::equivalent(options.dump, options.scene, failed)) throw UsageError("--dump would overwrite the scene itself: choose another name");
+    check_outputs_apart({{"the scene itself", options.scene}}, {{"--dump", options.dump}});
     check_file_writable(options.dump);
 }
 
@@ -159,7 +159,7 @@ void dump(const Scene& scene, const std::string& target)
     const std::filesystem::path file = to_stdout ? std::filesystem::path(scene.file).filename() : std::filesystem::path(target);
     const std::string xml = write_scene(scene, file.parent_path() / (file.stem().string() + "-files"));
     if (to_stdout) std::cout << xml;
-    else write_file_atomically(file, xml);
+    else write_file(file, xml);
 }
 
 ExitStatus info(const InfoOptions& options)

@@ -1,11 +1,11 @@
 // The command line: chooses a subcommand, and turns what went wrong into one line and an exit status.
 #include "app/commands.h"
+#include "app/failure.h"
 #include "base/interrupt.h"
 #include "base/log.h"
 
 #include <algorithm>
 #include <iostream>
-#include <new>
 
 namespace sundog {
 namespace {
@@ -69,15 +69,11 @@ ExitStatus run_guarded(int argc, char** argv)
 {
     try {
         return run(argc, argv);
-    } catch (const Error& error) {
-        log_error(error.what());
-        return error.status();
-    } catch (const std::bad_alloc&) {
-        log_error("out of host memory; use a smaller film, fewer photons or a smaller scene");
-    } catch (const std::exception& error) {
-        log_error(std::string("internal error: ") + error.what());
+    } catch (...) {
+        const Failure failure = failure_of(std::current_exception());
+        log_error(failure.message);
+        return failure.status;
     }
-    return ExitStatus::internal_error;
 }
 
 } // namespace

@@ -2,10 +2,12 @@
 
 #include "base/errors.h"
 #include "base/hash.h"
+#include "base/readable_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 namespace sundog {
 
@@ -22,15 +24,15 @@ struct SectionHeader {
 };
 static_assert(sizeof(SectionHeader) == 16);
 
-struct Digest {
-    std::uint64_t low, high;
-    bool operator==(const Digest&) const = default;
-};
+CheckpointDigest digest_of(const Hash& hash) { return {hash.low(), hash.high()}; }
 
-Digest digest_of(std::string_view name, std::string_view data)
+CheckpointDigest digest_of(std::string_view name, std::string_view data) { return digest_of(Hash().append_field(name).append_field(data)); }
+
+// Elements of a piece that are held at a time.
+std::size_t elements_of_a_block(std::size_t element_bytes)
 {
-    const Hash hash = Hash().append_field(name).append_field(data);
-    return {hash.low(), hash.high()};
+    constexpr std::size_t block_bytes = 1 << 20;
+    return std::max<std::size_t>(block_bytes / element_bytes, 1);
 }
 
 template <class T> std::string_view bytes_of(const T& value)
@@ -62,6 +64,24 @@ void CheckpointWriter::section(std::string_view name, std::string_view data)
 
 void CheckpointWriter::bytes(std::string_view name, std::span<std::byte> data) { section(name, text_of(data)); }
 
+void CheckpointWriter::blocks(std::string_view name, std::size_t elements, std::size_t element_bytes, const Exchange& exchange)
+{
+    const std::size_t at_once = elements_of_a_block(element_bytes);
+    Hash hash = Hash().append_field(name).begin_field(elements * element_bytes);
+    file_.write(bytes_of(SectionHeader{static_cast<std::uint32_t>(name.size()), 0, elements * element_bytes}));
+    file_.write(name);
+    std::vector<std::byte> block;
+    for (std::size_t first = 0; first < elements; first += at_once) {
+        block.resize(std::min(at_once, elements - first) * element_bytes);
+        exchange(first, block);
+        hash.append(text_of(block));
+        file_.write(text_of(block));
+    }
+    file_.write(bytes_of(digest_of(hash)));
+}
+
+void CheckpointWriter::refuse(const std::string& why) const { throw FileError("cannot save: " + why); }
+
 void CheckpointWriter::text(std::string_view name, std::string_view text) { section(name, text); }
 
 void CheckpointWriter::commit()
@@ -75,8 +95,8 @@ CheckpointReader::CheckpointReader(const std::filesystem::path& file, FileUse us
     std::error_code error;
     if (!std::filesystem::exists(file, error)) throw FileError(fmt::format("{}: {}, there is no such file", file.string(), use_.failure));
     if (!std::filesystem::is_regular_file(file, error)) refuse("is not a file");
+    check_file_readable(file);
     file_.open(file, std::ios::binary);
-    if (!file_) throw FileError(file.string() + ": cannot read; check its permissions");
     left_ = std::filesystem::file_size(file, error);
 
     std::string start(magic.size(), '\0');
@@ -113,26 +133,58 @@ std::uint64_t CheckpointReader::begin_section(std::string_view name)
     return header.data_bytes;
 }
 
-void CheckpointReader::end_section(std::string_view name, std::string_view data)
+void CheckpointReader::end_section(std::string_view name, const CheckpointDigest& digest)
 {
-    Digest stored{};
+    CheckpointDigest stored{};
     take(&stored, sizeof stored);
-    if (stored != digest_of(name, data)) refuse(fmt::format("is damaged: the checksum of \"{}\" is wrong", name));
+    if (stored != digest) refuse(fmt::format("is damaged: the checksum of \"{}\" is wrong", name));
+}
+
+void CheckpointReader::expect_bytes(std::string_view name, std::uint64_t wanted)
+{
+    const std::uint64_t stored = begin_section(name);
+    if (stored != wanted) refuse(fmt::format("is damaged or was made by another sundog: \"{}\" has {} bytes, not {}", name, stored, wanted));
+}
+
+std::uint64_t CheckpointReader::next_bytes()
+{
+    SectionHeader header{};
+    const std::uint64_t left = left_;
+    take(&header, sizeof header);
+    file_.seekg(-static_cast<std::streamoff>(sizeof header), std::ios::cur);
+    left_ = left;
+    return header.data_bytes;
+}
+
+void CheckpointReader::blocks(std::string_view name, std::size_t elements, std::size_t element_bytes, const Exchange& exchange)
+{
+    expect_bytes(name, elements * element_bytes);
+    const std::size_t at_once = elements_of_a_block(element_bytes);
+    Hash hash = Hash().append_field(name).begin_field(elements * element_bytes);
+    std::vector<std::byte> block;
+    for (std::size_t first = 0; first < elements; first += at_once) {
+        block.resize(std::min(at_once, elements - first) * element_bytes);
+        take(block.data(), block.size());
+        hash.append(text_of(block));
+        exchange(first, block);
+    }
+    end_section(name, digest_of(hash));
 }
 
 void CheckpointReader::bytes(std::string_view name, std::span<std::byte> data)
 {
-    const std::uint64_t stored = begin_section(name);
-    if (stored != data.size()) refuse(fmt::format("is damaged or was made by another sundog: \"{}\" has {} bytes, not {}", name, stored, data.size()));
-    take(data.data(), stored);
-    end_section(name, text_of(data));
+    expect_bytes(name, data.size());
+    take(data.data(), data.size());
+    end_section(name, digest_of(name, text_of(data)));
 }
 
-std::string CheckpointReader::text(std::string_view name)
+std::string CheckpointReader::text(std::string_view name, std::uint64_t most_bytes)
 {
-    std::string text(begin_section(name), '\0');
+    const std::uint64_t stored = begin_section(name);
+    if (stored > most_bytes) refuse(fmt::format("is damaged: \"{}\" has {} bytes, more than it can have", name, stored));
+    std::string text(stored, '\0');
     take(text.data(), text.size());
-    end_section(name, text);
+    end_section(name, digest_of(name, text));
     return text;
 }
 

@@ -23,13 +23,19 @@
 
 namespace sundog {
 
-constexpr std::uint32_t checkpoint_layout = 1;
+constexpr std::uint32_t checkpoint_layout = 2;
 
 // How messages speak of a file that cannot be read.
 struct FileUse {
     std::string kind = "checkpoint";
     std::string failure = "cannot resume";
     std::string cure = "render afresh without --resume";
+};
+
+// Of a section's name and data.
+struct CheckpointDigest {
+    std::uint64_t low, high;
+    bool operator==(const CheckpointDigest&) const = default;
 };
 
 // Writes beside FILE; only commit() puts it there. Throws FileError.
@@ -39,6 +45,9 @@ public:
 
     bool loading() const override { return false; }
     void bytes(std::string_view name, std::span<std::byte> data) override;
+    void blocks(std::string_view name, std::size_t elements, std::size_t element_bytes, const Exchange& exchange) override;
+    std::uint64_t next_bytes() override { return 0; } // nothing is loaded
+    [[noreturn]] void refuse(const std::string& why) const override;
     void text(std::string_view name, std::string_view text);
     void commit();
 
@@ -49,21 +58,25 @@ private:
 };
 
 // Throws FileError: no such file, no checkpoint, another layout or byte order, cut off, or changed since it was
-// written. Data is given out only after its hash was found to be right.
+// written. Data is given out only after its hash was found to be right; blocks are given out before that, and the last
+// of them is followed by the exception.
 class CheckpointReader final : public StateArchive {
 public:
     explicit CheckpointReader(const std::filesystem::path& file, FileUse use = {});
 
     bool loading() const override { return true; }
     void bytes(std::string_view name, std::span<std::byte> data) override;
-    std::string text(std::string_view name);
+    void blocks(std::string_view name, std::size_t elements, std::size_t element_bytes, const Exchange& exchange) override;
+    std::uint64_t next_bytes() override;
+    std::string text(std::string_view name, std::uint64_t most_bytes);
     void finish(); // the archive ends here
 
-    [[noreturn]] void refuse(const std::string& why) const; // the file, for a reason that its reader found
+    [[noreturn]] void refuse(const std::string& why) const override; // the file, for a reason that its reader found
 
 private:
     std::uint64_t begin_section(std::string_view name);
-    void end_section(std::string_view name, std::string_view data);
+    void expect_bytes(std::string_view name, std::uint64_t wanted);
+    void end_section(std::string_view name, const CheckpointDigest& digest);
     void take(void* target, std::uint64_t bytes);
 
     std::filesystem::path path_;

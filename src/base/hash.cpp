@@ -15,11 +15,9 @@ Hash& Hash::append(std::string_view bytes)
     return *this;
 }
 
-Hash& Hash::append_field(std::string_view bytes)
-{
-    append(fmt::format("{}:", bytes.size()));
-    return append(bytes);
-}
+Hash& Hash::begin_field(std::uint64_t bytes) { return append(fmt::format("{}:", bytes)); }
+
+Hash& Hash::append_field(std::string_view bytes) { return begin_field(bytes.size()).append(bytes); }
 
 std::string Hash::hex() const
 {

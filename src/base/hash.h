@@ -15,6 +15,7 @@ public:
     Hash& append(std::string_view bytes);
     // Appends the length first, so that ("ab", "c") and ("a", "bc") differ.
     Hash& append_field(std::string_view bytes);
+    Hash& begin_field(std::uint64_t bytes); // of a field whose bytes are appended one part after another
 
     std::uint64_t high() const { return std::uint64_t(state_ >> 64); }
     std::uint64_t low() const { return std::uint64_t(state_); }

@@ -66,11 +66,15 @@ public:
         assert(first + data.size() <= size_);
         if (!data.empty()) raw_.write(first * sizeof(T), data.data(), data.size_bytes());
     }
+    void download_to(std::span<T> target, std::size_t first) const
+    {
+        assert(first + target.size() <= size_);
+        if (!target.empty()) raw_.read(first * sizeof(T), target.data(), target.size_bytes());
+    }
     std::vector<T> download(std::size_t first, std::size_t count) const
     {
-        assert(first + count <= size_);
         std::vector<T> data(count);
-        if (count > 0) raw_.read(first * sizeof(T), data.data(), count * sizeof(T));
+        download_to(data, first);
         return data;
     }
     std::vector<T> download() const { return download(0, size_); }

@@ -1,9 +1,12 @@
 #include "film/device_film.h"
 
+#include "base/fault_injection.h"
 #include "device/buffer_state.h"
 #include "film/moments.h"
+#include "math/plausible.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sundog {
 
@@ -15,7 +18,20 @@ constexpr std::size_t tile_size = 8;
 const std::vector<std::string> channel_names = {"R",        "G",        "B",   "variance.R", "variance.G", "variance.B", "albedo.R",
                                                 "albedo.G", "albedo.B", "N.X", "N.Y",        "N.Z",        "depth.Z"};
 
+bool is_first_hit(const FirstHitPixel& hit)
+{
+    return is_plausible(hit.albedo) && is_plausible(hit.normal) && std::abs(hit.depth) <= largest_plausible;
+}
+
 } // namespace
+
+bool is_sum(const FilmPixel& pixel)
+{
+    // Squares of such radiance overflow, and no variance is known.
+    constexpr float overflowing = 1e15f;
+    const bool has_squares = is_plausible(pixel.squares) && is_plausible(pixel.squares_error);
+    return is_plausible(pixel.sum) && is_plausible(pixel.sum_error) && (has_squares || std::max({pixel.sum.x, pixel.sum.y, pixel.sum.z}) > overflowing);
+}
 
 DeviceFilm::DeviceFilm(Device& device, int width, int height)
     : width_(width), height_(height), accumulate_film_(device, "accumulate_film", "Accumulate film"), invalid_samples_(device, 1, "invalid samples")
@@ -27,9 +43,19 @@ DeviceFilm::DeviceFilm(Device& device, int width, int height)
 
 void DeviceFilm::accumulate(const Buffer<Vec3>& radiance)
 {
+    fault_point(FaultPoint::accumulate);
+    begin_update();
     accumulate_film_(pixel_count(), radiance, static_cast<uint>(pixel_count()), pixels_, invalid_samples_);
     if (errors) errors->accumulate(radiance);
     iterations_++;
+    is_whole_ = true;
+}
+
+bool DeviceFilm::begin_first_hits(std::uint64_t iteration)
+{
+    if (iteration < first_hit_iterations_) return false;
+    first_hit_iterations_ = iteration + 1;
+    return true;
 }
 
 std::uint64_t DeviceFilm::invalid_samples() const
@@ -39,9 +65,13 @@ std::uint64_t DeviceFilm::invalid_samples() const
 
 void DeviceFilm::serialize(StateArchive& archive)
 {
-    archive.value("film iterations", iterations_);
-    sundog::serialize(archive, "film", pixels_);
-    sundog::serialize(archive, "first hit channels", first_hits);
+    archive.count("film iterations", iterations_);
+    if (archive.takes_blocks()) { // first hits are not taken back
+        archive.count("first hit iterations", first_hit_iterations_);
+        archive.check(first_hit_iterations_ == iterations_ || first_hit_iterations_ == iterations_ + 1, "first hit iterations");
+    }
+    sundog::serialize(archive, "film", pixels_, is_sum);
+    sundog::serialize(archive, "first hit channels", first_hits, is_first_hit);
     sundog::serialize(archive, "invalid samples", invalid_samples_);
     if (errors) errors->serialize(archive);
 }
@@ -58,24 +88,29 @@ std::size_t DeviceFilm::pixel_of_path(std::size_t path) const
     return (row * tile_size + in_tile / tile_width) * w + column * tile_size + in_tile % tile_width;
 }
 
+// A band of tiles at a time: the image is all that needs room for every pixel.
 Image DeviceFilm::resolve() const
 {
-    const std::vector<FilmPixel> pixels = pixels_.download();
     std::vector<std::string> names = channel_names;
-    std::vector<float> error_channels;
-    if (errors) {
-        const std::vector<std::string> more = errors->channel_names();
-        names.insert(names.end(), more.begin(), more.end());
-        error_channels = errors->channels(pixels, iterations_);
-    }
-    const std::size_t more = names.size() - channel_names.size();
+    if (errors)
+        for (const std::string& name : errors->channel_names()) names.push_back(name);
     Image image(width_, height_, names);
-    const std::vector<FirstHitPixel> hits = first_hits.download();
+    const std::size_t band = tile_size * static_cast<std::size_t>(width_);
+    for (std::size_t first = 0; first < pixel_count(); first += band) resolve_paths(first, std::min(band, pixel_count() - first), image);
+    return image;
+}
+
+void DeviceFilm::resolve_paths(std::size_t first, std::size_t count, Image& image) const
+{
+    const std::vector<FilmPixel> pixels = pixels_.download(first, count);
+    const std::vector<FirstHitPixel> hits = first_hits.download(first, count);
+    const std::vector<float> error_channels = errors ? errors->channels(pixels, first, iterations_) : std::vector<float>();
+    const std::size_t channels = image.channels.size(), more = channels - channel_names.size();
     const double n = static_cast<double>(std::max<std::uint64_t>(iterations_, 1));
-    for (std::size_t path = 0; path < pixels.size(); path++) {
-        const FilmPixel& p = pixels[path];
-        const FirstHitPixel& hit = hits[path];
-        float* out = &image.pixels[pixel_of_path(path) * names.size()];
+    for (std::size_t i = 0; i < count; i++) {
+        const FilmPixel& p = pixels[i];
+        const FirstHitPixel& hit = hits[i];
+        float* out = &image.pixels[pixel_of_path(first + i) * channels];
         const Moments channel[3] = {moments(p.sum.x, p.sum_error.x, p.squares.x, p.squares_error.x, n),
                                     moments(p.sum.y, p.sum_error.y, p.squares.y, p.squares_error.y, n),
                                     moments(p.sum.z, p.sum_error.z, p.squares.z, p.squares_error.z, n)};
@@ -85,9 +120,8 @@ Image DeviceFilm::resolve() const
         }
         const float rest[7] = {hit.albedo.x, hit.albedo.y, hit.albedo.z, hit.normal.x, hit.normal.y, hit.normal.z, hit.depth};
         std::copy(std::begin(rest), std::end(rest), out + 6);
-        std::copy_n(error_channels.data() + path * more, more, out + channel_names.size());
+        std::copy_n(error_channels.data() + i * more, more, out + channel_names.size());
     }
-    return image;
 }
 
 } // namespace sundog

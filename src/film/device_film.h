@@ -17,6 +17,14 @@ class DeviceFilm {
 public:
     DeviceFilm(Device& device, int width, int height);
 
+    // Methods call it before they change what outlives the iteration, other than by accumulate(): from there to the end of
+    // accumulate() the render's state is that of no whole number of iterations.
+    void begin_update() { is_whole_ = false; }
+    bool is_whole() const { return is_whole_; }
+
+    // Whether first hits lack this iteration's, which the caller adds. A pass that failed and is made again finds its own there.
+    bool begin_first_hits(std::uint64_t iteration);
+
     // Adds one iteration's radiance (W/m^2/sr, one a pixel). Samples that are not finite are counted and left out.
     void accumulate(const Buffer<Vec3>& radiance);
 
@@ -41,12 +49,19 @@ public:
     std::size_t pixel_of_path(std::size_t path) const;
 
 private:
+    void resolve_paths(std::size_t first, std::size_t count, Image& image) const;
+
     int width_;
     int height_;
     Kernel accumulate_film_;
     Buffer<FilmPixel> pixels_;
     Buffer<uint> invalid_samples_;
     std::uint64_t iterations_ = 0;
+    std::uint64_t first_hit_iterations_ = 0; // the same, or one more after a pass that failed
+    bool is_whole_ = true;
 };
+
+// Whether finite sums of n values have a finite mean, and variance where squares do not overflow.
+bool is_sum(const FilmPixel& pixel);
 
 } // namespace sundog

@@ -1,6 +1,7 @@
 #include "film/error_estimate.h"
 
 #include "device/buffer_state.h"
+#include "film/device_film.h"
 #include "film/moments.h"
 #include "math/student_t.h"
 
@@ -88,9 +89,9 @@ std::vector<std::string> ErrorEstimate::channel_names() const
     return {"error.R", "error.G", "error.B"};
 }
 
-std::vector<float> ErrorEstimate::channels(const std::vector<FilmPixel>& film, std::uint64_t n) const
+std::vector<float> ErrorEstimate::channels(const std::vector<FilmPixel>& film, std::size_t first, std::uint64_t n) const
 {
-    const std::vector<FilmPixel> corrected = biased() ? corrected_.download() : std::vector<FilmPixel>();
+    const std::vector<FilmPixel> corrected = biased() ? corrected_.download(first, film.size()) : std::vector<FilmPixel>();
     const double count = static_cast<double>(n);
     const double width = n < 2 ? std::numeric_limits<double>::infinity() : quantile(n) / std::sqrt(count);
     std::vector<float> values;
@@ -113,7 +114,7 @@ std::vector<float> ErrorEstimate::channels(const std::vector<FilmPixel>& film, s
 // The bias of an iteration is no state: it is 0 between iterations.
 void ErrorEstimate::serialize(StateArchive& archive)
 {
-    if (biased()) sundog::serialize(archive, "corrected film", corrected_);
+    if (biased()) sundog::serialize(archive, "corrected film", corrected_, is_sum);
 }
 
 std::vector<double> relative_bounds(const Image& image)

@@ -37,9 +37,10 @@ public:
     // Of the film's means over n iterations; waits. Bounds of fewer than two iterations are infinite.
     RelativeError relative_error(const Buffer<FilmPixel>& film, std::uint64_t n) const;
 
-    // "error.R", ... and, for biased methods, "bias.R", ...; values of all pixels, in path order, one after another.
+    // "error.R", ... and, for biased methods, "bias.R", ...; values of the film's pixels from `first` on, in path order, one
+    // after another.
     std::vector<std::string> channel_names() const;
-    std::vector<float> channels(const std::vector<FilmPixel>& film, std::uint64_t n) const;
+    std::vector<float> channels(const std::vector<FilmPixel>& film, std::size_t first, std::uint64_t n) const;
 
     double confidence() const { return confidence_; }
     bool biased() const { return bool(bias); }

@@ -45,11 +45,18 @@ public:
         }
         pass.gather_photons(gather_);
         add_gathered_(count, pass.queries.queries, gather_.sums, count, pass.inverse_paths(), pass.camera.radiance);
+        pass.begin_update();
         learn_radii_(count, pass.queries.queries, gather_errors_.sums, schedule(static_cast<double>(iteration + 1), pass.light_paths()),
                      count, pixels_);
     }
 
-    void serialize(StateArchive& archive) override { sundog::serialize(archive, "adaptive pixels", pixels_); }
+    void serialize(StateArchive& archive) override
+    {
+        sundog::serialize(archive, "adaptive pixels", pixels_, [this](const AdaptivePixel& pixel) {
+            return is_shrunk(pixel.radius_squared, first_radius_) && std::isfinite(pixel.second_moment) && std::isfinite(pixel.laplacian) &&
+                   pixel.second_moment >= 0.0f && pixel.laplacian_deviation >= 0.0f && pixel.photons >= 0.0f;
+        });
+    }
 
 private:
     AdaptiveSchedule schedule(double iterations_done, std::size_t light_paths) const

@@ -75,7 +75,7 @@ public:
         if (gathering_) gathering_->build(light_subpaths_, radius);
 
         camera_.start(context_.scene, pool_, key);
-        camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
+        if (context_.film.begin_first_hits(iteration)) camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
         const ConnectedSubpaths subpaths{pool_, camera_subpaths_, light_subpaths_, key};
         if (connections_) light_subpaths_.add_splats(camera_.radiance);
         for (;;) {
@@ -99,7 +99,7 @@ public:
 
     void serialize(StateArchive& archive) override
     {
-        archive.value("photons stored", photons_stored_);
+        archive.count("photons stored", photons_stored_);
         pool_.serialize(archive);
         light_subpaths_.serialize(archive);
         if (gathering_) gathering_->serialize(archive);

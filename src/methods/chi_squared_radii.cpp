@@ -43,11 +43,17 @@ public:
         set_query_radii_(count, pixels_, count, pass.queries.queries);
         pass.estimate_bias(kernel_);
         pass.gather_photons(gather_);
+        pass.begin_update();
         test_photon_bins_(count, pass.queries.queries, gather_.sums, thresholds_, count, shrink_, pass.inverse_paths(), pixels_,
                           pass.camera.radiance);
     }
 
-    void serialize(StateArchive& archive) override { sundog::serialize(archive, "tested pixels", pixels_); }
+    void serialize(StateArchive& archive) override
+    {
+        sundog::serialize(archive, "tested pixels", pixels_, [this](const TestedPixel& pixel) {
+            return is_shrunk(pixel.radius_squared, first_radius_) && pixel.first_test >= 0.0f && pixel.next_test >= 0.0f;
+        });
+    }
 
 private:
     TestedPixel first_statistics(const Parameters& parameters) const

@@ -19,7 +19,7 @@ void LightPass::trace(PathPool& pool, SamplerKey key, float radius)
 
 void LightPass::serialize(StateArchive& archive)
 {
-    archive.value("photons stored", photons_stored_);
+    archive.count("photons stored", photons_stored_);
     photons_.serialize(archive);
 }
 

@@ -4,6 +4,8 @@
 #include "methods/radius_policy.h"
 #include "shared/counted_radius.h"
 
+#include <cmath>
+
 namespace sundog
 {
 namespace
@@ -32,10 +34,17 @@ public:
         pass.estimate_bias(kernel_);
         pass.gather_photons(gather_);
         add_gathered_(count, pass.queries.queries, gather_.sums, count, pass.inverse_paths(), pass.camera.radiance);
+        pass.begin_update();
         shrink_radii_(count, pass.queries.queries, gather_.sums, count, alpha_, pixels_);
     }
 
-    void serialize(StateArchive& archive) override { sundog::serialize(archive, "counted pixels", pixels_); }
+    void serialize(StateArchive& archive) override
+    {
+        sundog::serialize(archive, "counted pixels", pixels_, [this](const CountedPixel& pixel) {
+            return is_shrunk(pixel.radius_squared, first_radius_) && pixel.count >= 0.0f && std::isfinite(pixel.count) &&
+                   std::isfinite(pixel.count_error);
+        });
+    }
 
 private:
     float first_radius_, alpha_;

@@ -23,7 +23,7 @@ public:
         const SamplerKey key = sampler_key(context_.seed, iteration);
         const Regularization regularization = schedule_ ? schedule_->at(iteration) : Regularization{};
         camera_.start(context_.scene, pool_, key);
-        camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
+        if (context_.film.begin_first_hits(iteration)) camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
         tracer_.trace(context_.scene, camera_, pool_, key, regularization);
         context_.spectral.to_rgb(camera_.radiance);
         context_.film.accumulate(camera_.radiance);

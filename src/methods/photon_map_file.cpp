@@ -1,6 +1,7 @@
 #include "methods/photon_map_file.h"
 
 #include "base/checkpoint_file.h"
+#include "stages/photon_check.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,8 @@ namespace
 using Json = nlohmann::ordered_json;
 
 constexpr const char* description_name = "photon maps";
+constexpr std::uint64_t most_description_bytes = 1 << 20;
+constexpr std::uint64_t most_light_paths = std::uint64_t(1) << 48;
 
 Json description_of(const TracedPhotons& map)
 {
@@ -37,15 +40,18 @@ void check_origin(const CheckpointReader& reader, const Json& json, const Photon
     }
 }
 
-TracedPhotons read_map(CheckpointReader& reader, const std::string& name, const Json& json)
+TracedPhotons read_map(CheckpointReader& reader, const std::string& name, const Json& json, const Bounds& bounds)
 {
-    TracedPhotons map;
-    map.light_paths = json.at("light_paths").get<std::uint64_t>();
-    const std::string bytes = reader.text(name);
-    if (map.light_paths == 0 || bytes.size() != json.at("photons").get<std::uint64_t>() * sizeof(Photon))
+    const Json &paths = json.at("light_paths"), &photons = json.at("photons");
+    const std::uint64_t bytes = reader.next_bytes();
+    const bool has_counts = paths.is_number_unsigned() && photons.is_number_unsigned();
+    if (!has_counts || paths == 0u || paths >= most_light_paths || bytes % sizeof(Photon) != 0 || photons != bytes / sizeof(Photon))
         reader.refuse(fmt::format("is damaged: its {} map does not hold the photons that it should", name));
-    map.photons.resize(bytes.size() / sizeof(Photon));
-    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(map.photons.data()));
+    TracedPhotons map;
+    map.light_paths = paths.get<std::uint64_t>();
+    map.photons.resize(static_cast<std::size_t>(bytes / sizeof(Photon)));
+    reader.bytes(name, bytes_of(map.photons));
+    for (const Photon& photon : map.photons) reader.check(is_photon(photon, bounds), name);
     return map;
 }
 
@@ -64,14 +70,14 @@ void save_photon_maps(const std::filesystem::path& file, const PhotonMapOrigin& 
     writer.commit();
 }
 
-MapPhotons load_photon_maps(const std::filesystem::path& file, const PhotonMapOrigin& origin)
+MapPhotons load_photon_maps(const std::filesystem::path& file, const PhotonMapOrigin& origin, const Bounds& bounds)
 {
     CheckpointReader reader(file, {"photon map", "cannot load photon maps", "trace them again (-p save_map=FILE, no load_map)"});
     try {
-        const Json json = Json::parse(reader.text(description_name));
+        const Json json = Json::parse(reader.text(description_name, most_description_bytes));
         check_origin(reader, json, origin);
-        MapPhotons maps{read_map(reader, "global", json.at("global")), {}};
-        if (json.contains("caustic")) maps.caustic = read_map(reader, "caustic", json.at("caustic"));
+        MapPhotons maps{read_map(reader, "global", json.at("global"), bounds), {}};
+        if (json.contains("caustic")) maps.caustic = read_map(reader, "caustic", json.at("caustic"), bounds);
         reader.finish();
         return maps;
     } catch (const Json::exception& error) {

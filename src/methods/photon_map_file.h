@@ -1,6 +1,7 @@
 // Photon maps in a file: traced once, used by many renders of a scene.
 #pragma once
 
+#include "math/bounds.h"
 #include "methods/traced_photons.h"
 
 #include <filesystem>
@@ -21,7 +22,7 @@ struct PhotonMapOrigin {
 void save_photon_maps(const std::filesystem::path& file, const PhotonMapOrigin& origin, const MapPhotons& maps);
 
 // Throws FileError, saying what is wrong and what to do: no such file, damaged or cut off, of another scene or another version
-// of sundog, or made with other parameters. No rays were traced for what is returned.
-MapPhotons load_photon_maps(const std::filesystem::path& file, const PhotonMapOrigin& origin);
+// of sundog, made with other parameters, or with photons that no scene of these bounds can have. No rays were traced for what is returned.
+MapPhotons load_photon_maps(const std::filesystem::path& file, const PhotonMapOrigin& origin, const Bounds& bounds);
 
 } // namespace sundog

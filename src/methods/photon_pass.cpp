@@ -20,7 +20,7 @@ void PhotonPass::trace(std::uint64_t iteration, float radius)
 {
     const SamplerKey key = sampler_key(context_.seed, iteration);
     camera.start(context_.scene, pool_, key);
-    camera.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
+    if (context_.film.begin_first_hits(iteration)) camera.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
     queries.trace(context_.scene, camera, pool_, key, radius);
     light_.trace(pool_, key, bias_ ? bias_->map_radius(iteration, radius) : radius);
     radius_ = radius;
@@ -38,7 +38,8 @@ void PhotonPass::estimate_bias(int density_kernel)
 
 void PhotonPass::serialize(StateArchive& archive)
 {
-    archive.value("photon iterations", iterations_);
+    archive.count("photon iterations", iterations_);
+    archive.check(iterations_ == context_.film.iterations(), "photon iterations");
     light_.serialize(archive);
     pool_.serialize(archive);
 }

@@ -25,6 +25,9 @@ public:
     // estimate by the kernel (1 - t^2)^density_kernel has to the film's error estimate, where there is one.
     void estimate_bias(int density_kernel);
 
+    // Before what pixels have learned changes.
+    void begin_update() { context_.film.begin_update(); }
+
     // Sums by query, in `gather.sums`.
     template <class Result> void gather_photons(PhotonGather<Result>& gather) const
     {

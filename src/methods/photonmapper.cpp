@@ -59,11 +59,12 @@ public:
     {
         // One map at other wavelengths: the same photons; else others.
         const bool are_same = context_.spectral.is_on() && !has_fresh_maps(parameters_);
+        if (relaxed_global_) context_.film.begin_update(); // photons move
         if (tracer_) make_maps(tracer_->trace(are_same ? 0 : iteration));
         const SamplerKey key = sampler_key(context_.seed, iteration);
         const float radius = global_->lookup().radius;
         camera_.start(context_.scene, pool_, key);
-        camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
+        if (context_.film.begin_first_hits(iteration)) camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
         visible_.trace(context_.scene, camera_, pool_, key, radius);
         if (final_gather_) {
             final_gather_->trace(context_.scene, camera_, visible_, pool_, key, radius);
@@ -92,10 +93,10 @@ public:
             throw FileError("cannot resume, the photon maps are not those that the render began with; load those (-p load_map=FILE)");
         if (tracer_) tracer_->serialize(archive);
         for (auto* relaxed : {&relaxed_global_, &relaxed_caustic_})
-            if (*relaxed) (*relaxed)->serialize(archive);
-        archive.value("map light paths", light_paths_);
-        archive.value("map photons", photons_stored_);
-        archive.value("map rays", rays_);
+            if (*relaxed) (*relaxed)->serialize(archive, context_.scene.bounds());
+        archive.count("map light paths", light_paths_);
+        archive.count("map photons", photons_stored_);
+        archive.count("map rays", rays_);
         pool_.serialize(archive);
     }
 

@@ -69,6 +69,7 @@ public:
         if (context_.spectral.is_on()) find_hit_points_again();
         if (bias_) estimate_bias(iteration);
         const float inverse_paths = 1.0f / static_cast<float>(light_.light_paths()), share = 1.0f / static_cast<float>(hit_points_.size());
+        context_.film.begin_update();
         clear_radiance_(radiance_.size(), static_cast<uint>(radiance_.size()), radiance_);
         for (HitPoints& points : hit_points_) {
             points.statistics.set_radii(points.queries.queries);
@@ -98,7 +99,8 @@ public:
     // Hit points follow from the seed.
     void serialize(StateArchive& archive) override
     {
-        archive.value("photon iterations", iterations_);
+        archive.count("photon iterations", iterations_);
+        archive.check(iterations_ == context_.film.iterations(), "photon iterations");
         light_.serialize(archive);
         pool_.serialize(archive);
         for (HitPoints& points : hit_points_) points.statistics.serialize(archive);

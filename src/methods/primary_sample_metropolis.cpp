@@ -16,6 +16,8 @@ namespace
 
 // Enough at a time to keep a device busy, few enough for each to be long.
 constexpr std::size_t most_default_chains = 16384;
+// Resolved at a time: the image is all that needs room for every pixel.
+constexpr std::size_t pixels_at_a_time = 65536;
 // A path of more vertices goes on with numbers that are independent in each mutation, which its chain does not remember.
 constexpr uint most_vertices = 16;
 
@@ -62,7 +64,8 @@ public:
     void render_pass(std::uint64_t iteration) override
     {
         camera_.start(context_.scene, pool_, sampler_key(context_.seed, iteration));
-        camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
+        if (context_.film.begin_first_hits(iteration)) camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
+        context_.film.begin_update(); // every mutation changes a chain
         if (schedule_) regularize(iteration);
         if (!chains_.started()) start_chains();
         if (chains_.started()) {
@@ -76,13 +79,16 @@ public:
     // Every iteration's share with b as it is known now.
     void resolve(Image& image) const override
     {
-        const std::vector<Vec3> correction = chain_radiance_.correction(chains_.started() ? chains_.scale() : chain_radiance_.factor());
+        const double factor = chains_.started() ? chains_.scale() : chain_radiance_.factor();
         const float inverse_iterations = 1.0f / static_cast<float>(context_.film.iterations());
-        for (std::size_t path = 0; path < correction.size(); path++) {
-            float* pixel = &image.pixels[context_.film.pixel_of_path(path) * image.channels.size()];
-            pixel[0] += correction[path].x * inverse_iterations;
-            pixel[1] += correction[path].y * inverse_iterations;
-            pixel[2] += correction[path].z * inverse_iterations;
+        for (std::size_t first = 0; first < pixels_; first += pixels_at_a_time) {
+            const std::vector<Vec3> correction = chain_radiance_.correction(factor, first, std::min(pixels_at_a_time, pixels_ - first));
+            for (std::size_t i = 0; i < correction.size(); i++) {
+                float* pixel = &image.pixels[context_.film.pixel_of_path(first + i) * image.channels.size()];
+                pixel[0] += correction[i].x * inverse_iterations;
+                pixel[1] += correction[i].y * inverse_iterations;
+                pixel[2] += correction[i].z * inverse_iterations;
+            }
         }
     }
 
@@ -99,7 +105,7 @@ public:
     {
         pool_.serialize(archive);
         chains_.serialize(archive);
-        splats_.serialize(archive);
+        splats_.serialize(archive, chains_);
         chain_radiance_.serialize(archive);
         paths_->serialize(archive);
     }

@@ -38,11 +38,11 @@ public:
     void serialize(StateArchive& archive);
 
 private:
-    // Means over iterations, by path.
-    std::vector<Double3> mean_direct(const Buffer<Vec3>& direct, std::uint64_t iterations) const;
+    // Means over iterations, of `count` paths from `first` on.
+    std::vector<Double3> mean_direct(const Buffer<Vec3>& direct, std::size_t first, std::size_t count, std::uint64_t iterations) const;
 
     DirectLight direct_light_;
-    float alpha_;
+    float alpha_, first_radius_;
     Kernel set_query_radii_;
     Kernel update_progressive_pixels_;
     Buffer<ProgressivePixel> pixels_;

@@ -25,7 +25,7 @@ public:
     {
         const SamplerKey key = sampler_key(context_.seed, iteration);
         camera_.start(context_.scene, pool_, key);
-        camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
+        if (context_.film.begin_first_hits(iteration)) camera_.record_first_hits(context_.scene, pool_, iteration, context_.film.first_hits);
         if (max_depth_ >= 1)
             add_visible_light_(camera_.count(), context_.scene.surfaces(), static_cast<uint>(camera_.count()), pool_.rays, pool_.hits, pool_.paths, camera_.radiance);
         splats_.trace(context_.scene, camera_, pool_, key);

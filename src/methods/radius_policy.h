@@ -10,6 +10,13 @@
 namespace sundog
 {
 
+// Whether a pixel's radius, as a checkpoint has it, can have come from the first one: radii shrink.
+inline bool is_shrunk(float radius_squared, float first_radius)
+{
+    constexpr float rounding = 1.0001f;
+    return radius_squared > 0.0f && radius_squared <= first_radius * first_radius * rounding;
+}
+
 class RadiusPolicy
 {
 public:

@@ -28,6 +28,7 @@ public:
         pass_.gather_photons(gather_);
         context_.spectral.to_rgb(pass_.camera.radiance);
         context_.spectral.to_rgb(pass_.queries.queries, gather_.sums);
+        pass_.begin_update();
         statistics_.update(pass_.queries.queries, gather_.sums, pass_.camera.radiance, pass_.inverse_paths());
         context_.film.accumulate(pass_.camera.radiance);
     }

@@ -113,9 +113,9 @@ void MapPhotonTracer::serialize(StateArchive& archive)
 MapPhotons make_map_photons(RenderContext& context, const Parameters& parameters)
 {
     const std::string &from = parameters.text("load_map"), &to = parameters.text("save_map");
-    if (!to.empty()) check_file_writable(to); // before the work
+    if (!to.empty()) check_file_replaceable(to); // before the work
     const PhotonMapOrigin origin = from.empty() && to.empty() ? PhotonMapOrigin{} : origin_of(context, parameters);
-    const MapPhotons photons = from.empty() ? MapPhotonTracer(context, parameters).trace(0) : load_photon_maps(from, origin);
+    const MapPhotons photons = from.empty() ? MapPhotonTracer(context, parameters).trace(0) : load_photon_maps(from, origin, context.scene.bounds());
     if (!to.empty()) save_photon_maps(to, origin, photons);
     return photons;
 }

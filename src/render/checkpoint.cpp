@@ -39,6 +39,28 @@ RenderIdentity identity_of(const nlohmann::ordered_json& json)
     return identity;
 }
 
+// Renders of more iterations end in no lifetime, and products of a count with another stay within 64 bits.
+constexpr std::uint64_t most_iterations = std::uint64_t(1) << 32;
+
+[[noreturn]] void refuse_number(const std::filesystem::path& file, const std::string& number)
+{
+    throw FileError(fmt::format("{}: cannot resume, the checkpoint is damaged: no render has {}; render afresh without --resume", file.string(), number));
+}
+
+// A library would read -3 as 2^64 - 3.
+std::uint64_t count_of(const nlohmann::ordered_json& json, const std::filesystem::path& file)
+{
+    if (!json.is_number_unsigned() || json == 0u || json > most_iterations) refuse_number(file, json.dump() + " iterations");
+    return json.get<std::uint64_t>();
+}
+
+double seconds_of(const nlohmann::ordered_json& json, const std::filesystem::path& file)
+{
+    constexpr double most_seconds = 1e12;
+    if (!json.is_number() || !(json.get<double>() >= 0.0 && json.get<double>() <= most_seconds)) refuse_number(file, json.dump() + " seconds");
+    return json.get<double>();
+}
+
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& difference, const std::string& cure)
 {
     throw FileError(fmt::format("{}: cannot resume, the checkpoint is of {}; {}", file.string(), difference, cure));
@@ -89,9 +111,9 @@ RenderProgress progress_of_same_render(const std::string& text, const RenderIden
         check_same(identity_of(json), wanted, file);
         RenderProgress progress;
         json.at("device").get_to(progress.device);
-        json.at("iterations").get_to(progress.iterations);
-        json.at("seconds").get_to(progress.seconds);
-        json.at("stage_seconds").get_to(progress.stage_seconds);
+        progress.iterations = count_of(json.at("iterations"), file);
+        progress.seconds = seconds_of(json.at("seconds"), file);
+        for (const auto& stage : json.at("stage_seconds")) progress.stage_seconds.emplace_back(stage.at(0), seconds_of(stage.at(1), file));
         return progress;
     } catch (const nlohmann::json::exception& error) {
         throw FileError(fmt::format("{}: cannot resume, the checkpoint does not describe its render ({}); render afresh without --resume", file.string(),

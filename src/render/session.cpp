@@ -1,6 +1,8 @@
 #include "render/session.h"
 
 #include "base/checkpoint_file.h"
+#include "base/fault_injection.h"
+#include "base/kept_values.h"
 #include "base/log.h"
 #include "base/timer.h"
 #include "device/profile.h"
@@ -24,6 +26,7 @@ namespace {
 
 constexpr const char* default_method = "sppm";
 constexpr std::uint64_t default_iterations = 64;
+constexpr std::uint64_t most_description_bytes = 1 << 20; // of a checkpoint
 
 const MethodInfo& choose_method(const Scene& scene, const RenderSettings& settings)
 {
@@ -174,6 +177,7 @@ struct RenderSession::State {
     RenderContext context;
     std::unique_ptr<Method> method;
     std::uint64_t iterations = 0;
+    bool is_whole = true; // of whole iterations
     double seconds = 0.0;
     RenderProgress resumed; // what had been done when this session took over
     std::optional<std::string> scene_fingerprint;
@@ -223,12 +227,28 @@ std::uint64_t RenderSession::requested_iterations() const
 void RenderSession::iterate()
 {
     const Timer timer;
-    state_->motion.begin_pass(state_->iterations);
-    state_->spectral.begin_pass(state_->iterations);
-    state_->method->render_pass(state_->iterations);
-    state_->device.finish();
+    fault_point(FaultPoint::iterate);
+    KeptValues before;
+    state_->serialize(before);
+    try {
+        state_->motion.begin_pass(state_->iterations);
+        state_->spectral.begin_pass(state_->iterations);
+        state_->method->render_pass(state_->iterations);
+        state_->device.finish();
+    } catch (...) {
+        // Totals as they were. What lies on the device was changed last of all, or is not whole.
+        state_->is_whole = state_->film.is_whole() && state_->film.iterations() == state_->iterations;
+        before.rewind();
+        state_->serialize(before);
+        throw;
+    }
     state_->iterations++;
     state_->seconds += timer.seconds();
+}
+
+bool RenderSession::can_be_saved() const
+{
+    return state_->is_whole;
 }
 
 RelativeError RenderSession::relative_error() const
@@ -248,6 +268,8 @@ std::uint64_t RenderSession::iterations_done() const
 
 void RenderSession::save_checkpoint(const std::filesystem::path& file) const
 {
+    fault_point(FaultPoint::checkpoint);
+    assert(state_->is_whole);
     CheckpointWriter writer(file);
     writer.text("render", checkpoint_text(state_->identity(), state_->progress()));
     state_->serialize(writer);
@@ -258,9 +280,16 @@ void RenderSession::resume(const std::filesystem::path& file)
 {
     assert(state_->iterations == 0);
     CheckpointReader reader(file);
-    state_->resumed = progress_of_same_render(reader.text("render"), state_->identity(), file);
-    state_->serialize(reader);
+    state_->resumed = progress_of_same_render(reader.text("render", most_description_bytes), state_->identity(), file);
+    try {
+        state_->serialize(reader);
+    } catch (const DeviceError& error) {
+        reader.refuse(fmt::format("asks for more than this device can hold ({})", error.what()));
+    } catch (const std::bad_alloc&) {
+        reader.refuse("asks for more memory than there is");
+    }
     reader.finish();
+    reader.check(state_->film.iterations() == state_->resumed.iterations, "film iterations");
     state_->iterations = state_->resumed.iterations;
     state_->seconds = state_->resumed.seconds;
     const std::string& device = state_->device.info().name;
@@ -271,6 +300,7 @@ void RenderSession::resume(const std::filesystem::path& file)
 
 Image RenderSession::image() const
 {
+    fault_point(FaultPoint::image);
     Image image = state_->film.resolve();
     state_->method->resolve(image);
     const RenderStatistics s = statistics();

@@ -61,9 +61,13 @@ public:
     RelativeError relative_error() const;
     const MethodInfo& method() const;
 
-    // Renders one iteration and waits for it.
+    // Renders one iteration and waits for it. Where that throws, what was done before it is still there: an image, and
+    // a checkpoint where can_be_saved().
     void iterate();
     std::uint64_t iterations_done() const; // with those of a checkpoint
+
+    // False once an iteration has failed while it was changing what iterations add up to.
+    bool can_be_saved() const;
 
     // Saves all that iterations have added up to FILE, whole or not at all. At least one must be done. Throws FileError.
     void save_checkpoint(const std::filesystem::path& file) const;

@@ -20,7 +20,7 @@ public:
 
     const Buffer<TrialState>& states() const { return states_; } // by pair; without trials: no light
     std::uint64_t trials() const { return trials_; }             // traced so far
-    void serialize(StateArchive& archive) { archive.value("trials", trials_); }
+    void serialize(StateArchive& archive) { archive.count("trials", trials_); }
 
 private:
     std::size_t run_round(const DeviceScene& scene, const ConnectedSubpaths& subpaths, const ConnectedPairs& pairs, std::size_t waiting,

@@ -1,9 +1,24 @@
 #include "stages/chain_radiance.h"
 
 #include "device/buffer_state.h"
+#include "math/plausible.h"
 
 namespace sundog
 {
+
+namespace
+{
+
+// Products with the factor are no larger than other sums.
+constexpr float largest_sum = 1e26f;
+constexpr double largest_factor = 1e10;
+
+bool is_sum(const DirectSum& sum)
+{
+    return is_plausible(sum.sum, largest_sum) && is_plausible(sum.error, largest_sum);
+}
+
+} // namespace
 
 ChainRadiance::ChainRadiance(Device& device, std::size_t pixels)
     : radiance(device, std::vector<Vec3>(pixels), "chain radiance"),
@@ -26,9 +41,9 @@ void ChainRadiance::settle(double factor, Buffer<Vec3>& film_radiance)
     sum_.upload(std::vector<DirectSum>(sum_.size()));
 }
 
-std::vector<Vec3> ChainRadiance::correction(double factor) const
+std::vector<Vec3> ChainRadiance::correction(double factor, std::size_t first, std::size_t count) const
 {
-    const std::vector<DirectSum> sums = sum_.download(), corrections = correction_.download();
+    const std::vector<DirectSum> sums = sum_.download(first, count), corrections = correction_.download(first, count);
     const auto total = [&](float sum, float sum_error, float correction, float correction_error) {
         return static_cast<float>(static_cast<double>(correction) + static_cast<double>(correction_error) +
                                   (factor - factor_) * (static_cast<double>(sum) + static_cast<double>(sum_error)));
@@ -45,8 +60,9 @@ std::vector<Vec3> ChainRadiance::correction(double factor) const
 void ChainRadiance::serialize(StateArchive& archive)
 {
     archive.value("chain radiance factor", factor_);
-    sundog::serialize(archive, "chain radiance sums", sum_);
-    sundog::serialize(archive, "chain radiance corrections", correction_);
+    archive.check(factor_ >= 0.0 && factor_ <= largest_factor, "chain radiance factor");
+    sundog::serialize(archive, "chain radiance sums", sum_, is_sum);
+    sundog::serialize(archive, "chain radiance corrections", correction_, is_sum);
 }
 
 } // namespace sundog

@@ -25,9 +25,9 @@ public:
 
     double factor() const { return factor_; } // of the last iteration
 
-    // Sum over iterations, by pixel, of what would have been added with `factor` in place of those that were known: the film's mean
+    // Sum over iterations, of `count` pixels from `first` on, of what would have been added with `factor` in place of those that were known: the film's mean
     // lacks it. Waits.
-    std::vector<Vec3> correction(double factor) const;
+    std::vector<Vec3> correction(double factor, std::size_t first, std::size_t count) const;
 
     void serialize(StateArchive& archive);
 

@@ -1,10 +1,19 @@
 #include "stages/chain_splats.h"
 
+#include "math/plausible.h"
+
 #include <algorithm>
 #include <cassert>
 
 namespace sundog
 {
+
+namespace
+{
+
+constexpr float largest_splat = 1e24f; // so that many of them, times their weights, add up to no more than radiance may
+
+} // namespace
 
 ChainSplats::ChainSplats(Device& device, std::size_t pixels, std::size_t capacity)
     : device_(&device), pixels_(pixels), leave_camera_splats_(device, "leave_camera_splats", "Leave camera splats"),
@@ -80,11 +89,14 @@ void ChainSplats::keep_current(const MarkovChains& chains)
     count_ = kept_count_.read(0);
 }
 
-void ChainSplats::serialize(StateArchive& archive)
+void ChainSplats::serialize(StateArchive& archive, const MarkovChains& chains)
 {
+    if (!archive.takes_blocks()) return;
     std::uint64_t count = count_, capacity = splats_.size();
     archive.value("chain splat count", count);
-    archive.value("chain splat capacity", capacity); // when it is full splats are added, and so in another order
+    // When it is full splats are added, and so in another order.
+    archive.capacity("chain splat capacity", capacity, sizeof(Splat), device_->info().largest_buffer_bytes);
+    archive.check(count <= capacity, "chain splat count");
     if (capacity != splats_.size()) allocate(capacity);
     count_ = count;
     std::vector<Splat> splats = archive.loading() ? std::vector<Splat>(count_) : splats_.download(0, count_);
@@ -92,6 +104,8 @@ void ChainSplats::serialize(StateArchive& archive)
     archive.bytes("chain splats", std::as_writable_bytes(std::span(splats)));
     archive.bytes("splat samples", std::as_writable_bytes(std::span(samples)));
     if (!archive.loading()) return;
+    for (const Splat& splat : splats) archive.check(splat.pixel < pixels_ && is_plausible(splat.radiance, largest_splat), "chain splats");
+    for (const uint sample : samples) archive.check(sample < chains.count(), "splat samples");
     splats_.upload(splats);
     samples_.upload(samples);
 }

@@ -31,7 +31,7 @@ public:
     // are the same every time. Then keeps those of the chains' current states, for MarkovChains::renumber_samples() to follow.
     void add_to(Buffer<Vec3>& radiance, Buffer<Vec3>& chain_radiance, const MarkovChains& chains, float scale);
 
-    void serialize(StateArchive& archive);
+    void serialize(StateArchive& archive, const MarkovChains& chains); // after these
 
 private:
     void allocate(std::size_t capacity);

@@ -74,7 +74,7 @@ public:
     void serialize(StateArchive& archive)
     {
         std::uint64_t capacity = records_.size();
-        archive.value(name_ + " capacity", capacity);
+        archive.capacity(name_ + " capacity", capacity, sizeof(Record), device_->info().largest_buffer_bytes);
         if (capacity == records_.size()) return;
         records_ = {};
         records_ = Buffer<Record>(*device_, static_cast<std::size_t>(capacity), name_);

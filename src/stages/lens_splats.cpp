@@ -31,7 +31,9 @@ void LensSplats::clear()
 void LensSplats::serialize(StateArchive& archive)
 {
     splats_.serialize(archive);
-    if (owners_) owners_->paths.serialize(archive);
+    if (!owners_) return;
+    owners_->paths.serialize(archive);
+    archive.check(owners_->paths.capacity() == splats_.capacity(), "splat owners capacity");
 }
 
 void LensSplats::collect(const DeviceScene& scene, PathPool& pool)

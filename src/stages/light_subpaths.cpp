@@ -84,9 +84,10 @@ void LightSubpaths::serialize(StateArchive& archive)
     splats_.serialize(archive);
     photons_.serialize(archive);
     photon_vertices_.serialize(archive);
+    archive.check(photons_.capacity() == photon_vertices_.capacity(), "photon vertices capacity");
     // As with records: a resumed render would trace again what it has no room for, and count rays twice.
     std::uint64_t slots = vertices_.size();
-    archive.value("light vertex slots", slots);
+    archive.capacity("light vertex slots", slots, sizeof(PathVertex), device_->info().largest_buffer_bytes);
     if (slots != vertices_.size()) reserve_slots(static_cast<std::size_t>(slots));
 }
 

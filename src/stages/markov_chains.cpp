@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace sundog
@@ -129,11 +130,21 @@ void MarkovChains::serialize(StateArchive& archive)
 {
     archive.value("chain reference", reference_);
     archive.value("independent sum", independent_sum_);
-    archive.value("independent count", independent_count_);
-    archive.value("seeds", seeds_);
-    archive.value("proposed mutations", proposed_);
-    archive.value("accepted mutations", accepted_);
-    sundog::serialize(archive, "Markov chains", chains_);
+    archive.count("independent count", independent_count_);
+    archive.count("seeds", seeds_);
+    archive.count("proposed mutations", proposed_);
+    archive.count("accepted mutations", accepted_);
+    constexpr double largest_scale = 1e10; // it is near 1
+    const auto is_mean = [](double b) { return b >= std::numeric_limits<float>::min() && b <= std::numeric_limits<float>::max(); };
+    archive.check(reference_ == 0.0 || (is_mean(reference_) && independent_count_ > 0 && is_mean(mean()) && scale() <= largest_scale),
+                  "chain reference");
+    archive.check(independent_sum_ >= 0.0 && std::isfinite(independent_sum_), "independent sum");
+    archive.check(accepted_ <= proposed_, "accepted mutations");
+    sundog::serialize(archive, "Markov chains", chains_, [this](const MarkovChain& chain) {
+        const auto is_stored = [this](const uint* blocks) { return blocks[0] <= stored_blocks_ && blocks[1] <= stored_blocks_; };
+        return chain.contribution >= 0.0f && std::isfinite(chain.contribution) && chain.sample < settings_.chains && is_stored(chain.blocks) &&
+               is_stored(chain.proposed_blocks) && chain.kind <= PROPOSAL_SEED;
+    });
     sundog::serialize(archive, "chain coordinates", coordinates_);
 }
 

@@ -38,7 +38,7 @@ public:
     std::size_t capacity() const { return capacity_; }
 
     // Of what outlives an iteration there is only the count.
-    void serialize(StateArchive& archive) { archive.value("rays traced", rays_traced_); }
+    void serialize(StateArchive& archive) { archive.count("rays traced", rays_traced_); }
 
 private:
     std::size_t capacity_;

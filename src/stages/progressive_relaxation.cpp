@@ -1,5 +1,9 @@
 #include "stages/progressive_relaxation.h"
 
+#include "stages/photon_check.h"
+
+#include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace sundog
@@ -7,6 +11,8 @@ namespace sundog
 
 namespace
 {
+
+constexpr double largest_flux = 1e38; // W, that a float holds
 
 // Photons whose flux is their index, for find_nearest_photons.
 std::vector<Photon> numbered(std::vector<Photon> photons)
@@ -63,17 +69,21 @@ void ProgressiveRelaxation::add_pass(const std::vector<Photon>& photons)
     relaxation_.relax(primal_, 1, 1.0f / static_cast<float>(passes_));
 }
 
-void ProgressiveRelaxation::serialize(StateArchive& archive)
+void ProgressiveRelaxation::serialize(StateArchive& archive, const Bounds& bounds)
 {
-    std::uint64_t count = primal_.size();
-    archive.value("primal photon count", count);
+    if (!archive.takes_blocks()) return;
+    archive.count("relaxation passes", passes_);
     if (archive.loading()) {
-        primal_.resize(static_cast<std::size_t>(count));
+        const std::uint64_t bytes = archive.next_bytes();
+        archive.check(bytes % sizeof(Photon) == 0, "primal photons");
+        primal_.resize(static_cast<std::size_t>(bytes / sizeof(Photon)));
         sums_.resize(primal_.size());
     }
-    archive.value("relaxation passes", passes_);
     archive.bytes("primal photons", std::as_writable_bytes(std::span(primal_)));
     archive.bytes("primal flux", std::as_writable_bytes(std::span(sums_)));
+    for (const Photon& photon : primal_) archive.check(is_photon(photon, bounds), "primal photons");
+    for (const Double3& sum : sums_)
+        archive.check(std::all_of(sum.begin(), sum.end(), [](double flux) { return std::abs(flux) < largest_flux; }), "primal flux");
 }
 
 } // namespace sundog

@@ -24,7 +24,7 @@ public:
     const std::vector<Photon>& photons() const { return primal_; }
 
     std::uint64_t passes() const { return passes_; }
-    void serialize(StateArchive& archive);
+    void serialize(StateArchive& archive, const Bounds& bounds); // of the scene
 
 private:
     std::vector<uint> nearest_primal(const std::vector<Photon>& photons);

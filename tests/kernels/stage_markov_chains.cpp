@@ -290,7 +290,7 @@ TEST_F(MarkovChainsOnTarget, IterationsAreCorrectedForFactorsThatWereLearnedLate
         EXPECT_FLOAT_EQ(film.read(0).y, 0.25f + 2 * values[i] * static_cast<float>(factors[i]));
         sum += film.read(0).y - 0.25f;
     }
-    const std::vector<Vec3> correction = chain_radiance.correction(3);
+    const std::vector<Vec3> correction = chain_radiance.correction(3, 0, chain_radiance.radiance.size());
     EXPECT_FLOAT_EQ(sum + correction[0].y, 2 * 3 * (1 + 5 + 2 + 3));
     EXPECT_FLOAT_EQ(correction[0].x, correction[0].y / 2);
     EXPECT_FLOAT_EQ(correction[1].x, 3 * 3 - (0.5f + 1.5f + 1.25f));
