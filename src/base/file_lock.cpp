@@ -24,7 +24,7 @@ constexpr std::size_t longest_stem = 200; // of the 255 bytes that a name may ha
 fs::path lock_name(const fs::path& path)
 {
     std::error_code error;
-    const fs::path target = fs::weakly_canonical(find_output(path).path, error);
+    const fs::path target = fs::weakly_canonical(fs::absolute(find_output(path).path), error);
     return target.parent_path() / ("." + target.filename().string().substr(0, longest_stem) + ".lock");
 }
 

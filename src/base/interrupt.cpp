@@ -65,6 +65,11 @@ void install_interrupt_handler()
 
 void defer_interrupts() { deferred = true; }
 
-bool interrupt_requested() { return requested; }
+// A compiler inside the OpenCL driver (LLVM) takes signals over when it starts, in the middle of the first iteration.
+bool interrupt_requested()
+{
+    install_interrupt_handler();
+    return requested;
+}
 
 } // namespace sundog

@@ -71,7 +71,7 @@ bool are_one_file(const fs::path& a, const fs::path& b)
     if (exists != other_exists) return false;
     if (exists) return one.st_dev == other.st_dev && one.st_ino == other.st_ino;
     std::error_code error;
-    return fs::weakly_canonical(first.path, error) == fs::weakly_canonical(second.path, error);
+    return fs::weakly_canonical(fs::absolute(first.path), error) == fs::weakly_canonical(fs::absolute(second.path), error);
 }
 
 } // namespace sundog

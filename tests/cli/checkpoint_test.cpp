@@ -183,8 +183,8 @@ TEST_F(CliCheckpoint, a_damaged_one_is_refused)
     changed[changed.size() / 2] = static_cast<char>(changed[changed.size() / 2] ^ 1);
     expect_refused(changed, "the checksum of");
     std::string later = saved;
-    later[8] = 2;
-    expect_refused(later, "has layout 2, this sundog reads layout 1");
+    later[8] = 3;
+    expect_refused(later, "has layout 3, this sundog reads layout 2");
     EXPECT_THAT(files(), ::testing::ElementsAre("c", "scene.xml"));
 }
 

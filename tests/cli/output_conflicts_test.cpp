@@ -21,12 +21,12 @@ protected:
 
 TEST_F(CliOutputConflicts, outputs_on_the_scene)
 {
-    std::filesystem::create_symlink("scene.xml", folder / "scene.exr");
+    std::filesystem::create_symlink("scene.xml", folder / "link.exr");
     std::filesystem::create_hard_link(folder / "scene.xml", folder / "hard");
     expect_refused({"render", "scene.xml", "--stats", "scene.xml"}, {"--stats scene.xml would overwrite the scene; choose another name"});
     expect_refused({"render", "scene.xml", "--stats", "./hard"}, {"--stats ./hard would overwrite the scene"});
-    expect_refused({"render", "scene.xml", "-o", "scene.exr"}, {"-o scene.exr would overwrite the scene"});
-    expect_refused({"render", "scene.xml", "--error-image", "scene.exr"}, {"--error-image scene.exr would overwrite the scene"});
+    expect_refused({"render", "scene.xml", "-o", "link.exr"}, {"-o link.exr would overwrite the scene"});
+    expect_refused({"render", "scene.xml", "--error-image", "link.exr"}, {"--error-image link.exr would overwrite the scene"});
     expect_refused({"render", "scene.xml", "--checkpoint", (folder / "scene.xml").string()}, {"would overwrite the scene"});
     expect_refused({"render", "scene.xml", "-p", "save_map=scene.xml"}, {"save_map scene.xml would overwrite the scene"});
     expect_refused({"info", "scene.xml", "--dump", "hard"}, {"--dump hard would overwrite the scene itself"});

@@ -78,6 +78,7 @@ private:
         err.close(which);
     }
     std::filesystem::current_path(folder);
+    std::signal(SIGHUP, SIG_DFL); // also where the tests run under nohup, which sundog would keep to
     for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
     std::vector<char*> argv{const_cast<char*>("sundog")};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));

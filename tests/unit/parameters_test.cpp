@@ -82,8 +82,8 @@ TEST(MethodParameters, wrong_values_on_the_command_line_are_usage_errors)
 TEST(MethodParameters, messages_say_what_is_allowed)
 {
     EXPECT_THAT([] { command_line("alpha", "2"); }, ThrowsMessage<UsageError>(HasSubstr("must be a number from 0 to 1, got \"2\"")));
-    EXPECT_THAT([] { command_line("photons", "-5"); }, ThrowsMessage<UsageError>(HasSubstr("an integer from 0 to 1e+15, got \"-5\"")));
-    EXPECT_THAT([] { command_line("radius", "1e30"); }, ThrowsMessage<UsageError>(HasSubstr("a number from 0 to 1e+15, got \"1e30\"")));
+    EXPECT_THAT([] { command_line("photons", "-5"); }, ThrowsMessage<UsageError>(HasSubstr("an integer from 0 to 1e+18, got \"-5\"")));
+    EXPECT_THAT([] { command_line("photons", "1e30"); }, ThrowsMessage<UsageError>(HasSubstr("an integer from 0 to 1e+18, got \"1e30\"")));
     EXPECT_THAT([] { command_line("kernel", "x"); }, ThrowsMessage<UsageError>(HasSubstr("one of uniform, epanechnikov")));
     EXPECT_THAT([] { command_line("volumes", "x"); }, ThrowsMessage<UsageError>(HasSubstr("true or false")));
     EXPECT_THAT([] { command_line("foo", "1"); },
