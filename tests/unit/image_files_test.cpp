@@ -135,7 +135,7 @@ TEST_F(ImageFiles, a_folder_without_permission_is_refused)
 
 TEST_F(ImageFiles, an_image_without_colours_is_refused)
 {
-    EXPECT_THAT(file_error([&] { write_image(folder / "a.pfm", random_image(2, 2, {"N.X", "N.Y"})); }), HasSubstr("only: N.X N.Y"));
+    EXPECT_THAT(file_error([&] { write_image(folder / "a.pfm", random_image(2, 2, {"N.X", "N.Y"})); }), HasSubstr("its channels are N.X N.Y"));
     EXPECT_EQ(file_count(), 0u);
 }
 
