@@ -88,7 +88,6 @@ TEST_P(ParameterLimits, AreRefusedOrFinite)
             if (message.empty()) finite++;
             else EXPECT_THAT(message, HasSubstr(spec.name)) << "not refused by name";
             EXPECT_LT(timer.seconds(), 60.0);
-            if (timer.seconds() > 2.0) printf("%s %s=%s: %.1f s\n", info.name.c_str(), spec.name.c_str(), value.c_str(), timer.seconds());
         }
     EXPECT_GE(finite, 5) << "hardly anything was rendered";
 }
