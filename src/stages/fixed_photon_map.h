@@ -13,7 +13,11 @@ struct PhotonLookup {
     uint nearest = 0;          // k > 0: as near as the k-th photon, which does not count itself; 0: within the radius
     float usual_radius = 0.0f; // where the search for k begins
     int density_kernel = 0;    // as DENSITY_KERNEL
+    bool relaxed = false;      // the photons keep away from each other (photon_relaxation.h)
 };
+
+// How much of the k-th photon counts in a relaxed map, over what it would by the kernel's mean.
+float share_of_kth_photon(int density_kernel);
 
 class FixedPhotonMap
 {
