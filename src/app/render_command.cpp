@@ -1,5 +1,6 @@
 // sundog render SCENE.xml
 #include "app/commands.h"
+#include "app/option_values.h"
 #include "app/render_results.h"
 #include "base/file_lock.h"
 #include "base/log.h"
