@@ -1,6 +1,7 @@
 // Image files through OpenImageIO.
 #include "base/errors.h"
 #include "base/image_decoders.h"
+#include "base/regular_file.h"
 
 #include <OpenImageIO/imageio.h>
 
@@ -146,7 +147,7 @@ std::unique_ptr<ImageFile> open_image(const std::filesystem::path& file, std::ui
     std::error_code error;
     if (!std::filesystem::exists(file, error)) throw FileError(file.string() + ": cannot read, there is no such file");
     if (std::filesystem::is_directory(file, error)) throw FileError(file.string() + ": cannot read, it is a folder; give an image file");
-    if (!std::filesystem::is_regular_file(file, error)) refuse_image(file, "it is not a regular file");
+    if (const std::string fault = not_a_regular_file(file); !fault.empty()) refuse_image(file, "it " + fault);
     try {
         return open_sniffed(file, memory);
     } catch (const std::bad_alloc&) {

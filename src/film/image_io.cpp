@@ -74,10 +74,6 @@ class PfmFile : public ImageFile {
 public:
     explicit PfmFile(const fs::path& path)
     {
-        std::error_code error;
-        if (!fs::exists(path, error)) throw FileError(path.string() + ": cannot read, there is no such file");
-        if (fs::is_directory(path, error)) throw FileError(path.string() + ": cannot read, it is a folder; give an image file");
-        if (!fs::is_regular_file(path, error)) throw FileError(path.string() + ": cannot read, it is not a regular file");
         std::ifstream file(path, std::ios::binary);
         const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
         if (!file.is_open() || file.bad()) throw FileError(path.string() + ": cannot read; check its permissions");

@@ -239,7 +239,7 @@ TEST(Spectral, MethodsAgreeOnDispersiveGlass)
 // Each pass of a render: what it brought to the mean, by pixel and channel.
 std::vector<Image> passes_of(const Scene& scene, const RenderRequest& r)
 {
-    RenderSettings settings{r.method, r.parameters, 5, {}, {}};
+    RenderSettings settings{r.method, r.parameters, 5, {}, {}, {}};
     RenderSession session(scene, shared_device(), settings);
     std::vector<Image> passes;
     std::vector<float> sum;

@@ -251,8 +251,8 @@ const std::vector<Broken> broken_scenes = {
     {"TwoEnvironments", 3, "two environments", scene("<emitter type=\"constant\"/>\n<emitter type=\"constant\"/>")},
     {"TinyLight", 2, "too small",
      scene("<shape type=\"disk\"><transform name=\"to_world\"><scale value=\"1e-30\"/></transform><emitter type=\"area\"/></shape>")},
-    {"LightTooBright", 2, "too bright for 32-bit numbers", scene("<emitter type=\"point\"><rgb name=\"intensity\" value=\"1e38\"/></emitter>")},
-    {"LampTooBright", 2, "too bright for 32-bit numbers",
+    {"LightTooBright", 2, "'intensity' must be at most 1e18", scene("<emitter type=\"point\"><rgb name=\"intensity\" value=\"1e38\"/></emitter>")},
+    {"LampTooBright", 2, "'radiance' must be at most 1e18",
      scene("<shape type=\"sphere\"><emitter type=\"area\"><rgb name=\"radiance\" value=\"1e38\"/></emitter></shape>")},
     // The scene as a whole
     {"NoSensor", 0, "<sensor>", "<scene version=\"3.0.0\">" + light + "</scene>"},
