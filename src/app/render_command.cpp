@@ -19,6 +19,7 @@ LoadedScene load(const RenderOptions& options, const RenderPlan& plan)
 {
     const Timer timer;
     LoadedScene loaded = load_scene(options.scene, plan.load);
+    check_scene_files_apart(options, plan, loaded.files);
     for (const std::string& warning : loaded.warnings) log_warning(warning);
     log_debug(fmt::format("loaded {}: {} triangles, {:.2f} s", options.scene, loaded.scene.triangle_count(), timer.seconds()));
     return loaded;

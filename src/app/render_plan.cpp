@@ -56,18 +56,25 @@ void plan_errors(const RenderOptions& options, RenderPlan& plan)
     plan.settings.errors->confidence = confidence;
 }
 
-// Before anything is read or written.
-void check_files_apart(const RenderOptions& options, const RenderPlan& plan)
+std::vector<NamedFile> outputs_of(const RenderOptions& options, const RenderPlan& plan)
 {
-    std::vector<NamedFile> inputs{{"the scene", options.scene}}, outputs;
+    std::vector<NamedFile> outputs;
     for (const auto& output : plan.outputs) outputs.push_back({"-o", output});
     if (!plan.error_image.empty()) outputs.push_back({"--error-image", plan.error_image});
     if (!options.stats.empty()) outputs.push_back({"--stats", options.stats});
     if (plan.checkpoint) outputs.push_back({"--checkpoint", plan.checkpoint->file});
     const auto& parameters = plan.settings.parameters;
-    if (const auto map = parameters.find("load_map"); map != parameters.end()) inputs.push_back({"the photon maps", map->second});
     if (const auto map = parameters.find("save_map"); map != parameters.end()) outputs.push_back({"save_map", map->second});
-    check_outputs_apart(inputs, outputs);
+    return outputs;
+}
+
+// Before anything is read or written.
+void check_files_apart(const RenderOptions& options, const RenderPlan& plan)
+{
+    std::vector<NamedFile> inputs{{"the scene", options.scene}};
+    const auto& parameters = plan.settings.parameters;
+    if (const auto map = parameters.find("load_map"); map != parameters.end()) inputs.push_back({"the photon maps", map->second});
+    check_outputs_apart(inputs, outputs_of(options, plan));
 }
 
 void check_all_writable(const RenderOptions& options, const RenderPlan& plan)
@@ -110,6 +117,13 @@ RenderPlan make_plan(const RenderOptions& options)
     check_files_apart(options, plan);
     check_all_writable(options, plan);
     return plan;
+}
+
+void check_scene_files_apart(const RenderOptions& options, const RenderPlan& plan, const std::vector<std::filesystem::path>& files)
+{
+    std::vector<NamedFile> inputs;
+    for (const auto& file : files) inputs.push_back({"a file that the scene reads", file});
+    check_outputs_apart(inputs, outputs_of(options, plan));
 }
 
 } // namespace sundog

@@ -68,4 +68,7 @@ struct RenderPlan {
 // Throws UsageError for what cannot be meant, and FileError for outputs that cannot be written.
 RenderPlan make_plan(const RenderOptions& options);
 
+// Throws UsageError where an output is one of the files that the scene has named. Nothing has been written yet.
+void check_scene_files_apart(const RenderOptions& options, const RenderPlan& plan, const std::vector<std::filesystem::path>& files);
+
 } // namespace sundog

@@ -60,14 +60,14 @@ void import_objects(const XmlScene& xml, const SceneIndex& index, std::uint64_t 
 }
 
 // Once more, from a nearer origin, where the first has shown that the scene is far from it.
-Scene import_scene(const XmlScene& xml, const std::string& file, const LoadOptions& options, std::vector<Warning>& warnings)
+void import_scene(const XmlScene& xml, const std::string& file, const LoadOptions& options, LoadedScene& loaded)
 {
     constexpr int attempts = 4; // each knows better where a scene is that the last one saw in coarse steps
-    const std::vector<Warning> before = warnings;
+    const std::vector<Warning> before = loaded.warnings;
     LocalOrigins origins;
     for (int attempt = 1;; attempt++) {
-        warnings = before;
-        const SceneIndex index(xml, warnings, origins, options.allow_missing);
+        loaded.warnings = before;
+        const SceneIndex index(xml, loaded.warnings, origins, options.allow_missing);
         Scene scene;
         scene.file = file;
         scene.origin = origins.world.place;
@@ -79,7 +79,12 @@ Scene import_scene(const XmlScene& xml, const std::string& file, const LoadOptio
             if (attempt == attempts) throw;
             nearer = nearer_origins(origins, lost);
         }
-        if (!nearer || attempt == attempts) return scene;
+        if (!nearer || attempt == attempts) {
+            loaded.scene = std::move(scene);
+            loaded.files = xml.included;
+            loaded.files.insert(loaded.files.end(), index.files().begin(), index.files().end());
+            return;
+        }
         origins = *nearer;
     }
 }
@@ -90,7 +95,7 @@ LoadedScene load_scene(const std::filesystem::path& file, const LoadOptions& opt
 {
     LoadedScene loaded;
     const XmlScene xml = read_scene_xml(file, options.defines, loaded.warnings);
-    loaded.scene = import_scene(xml, file.string(), options, loaded.warnings);
+    import_scene(xml, file.string(), options, loaded);
     warn_of_places(loaded.scene, loaded.warnings);
     validate_scene(loaded.scene, loaded.warnings);
     return loaded;

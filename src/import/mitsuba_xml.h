@@ -28,6 +28,7 @@ struct LoadOptions {
 
 struct LoadedScene {
     Scene scene;
+    std::vector<std::filesystem::path> files; // that the scene names: included scenes, meshes, images, spectra
     std::vector<Warning> warnings; // sensor, shapes, lights, integrator: what was ignored, clamped or dropped
 };
 

@@ -99,7 +99,10 @@ std::filesystem::path SceneIndex::find_file(const std::string& name, const Sourc
     std::string tried;
     for (const auto& candidate : candidates) {
         std::error_code failed;
-        if (std::filesystem::is_regular_file(candidate, failed)) return candidate;
+        if (std::filesystem::is_regular_file(candidate, failed)) {
+            files_.insert(candidate);
+            return candidate;
+        }
         const std::string entry = "'" + candidate.string() + "'";
         if (tried.find(entry) == std::string::npos) tried += (tried.empty() ? "" : ", ") + entry;
     }

@@ -29,6 +29,8 @@ public:
     // The path of a file that the scene names: absolute, in a <path> folder, beside the scene, or beside the
     // including file. Throws SceneError naming the paths tried.
     std::filesystem::path find_file(const std::string& name, const SourceLocation& where) const;
+    // All that find_file() has found.
+    const std::set<std::filesystem::path>& files() const { return files_; }
 
     void warn(const SourceLocation& where, const std::string& message, WarningKind kind = WarningKind::note) const
     {
@@ -54,6 +56,7 @@ private:
     bool allow_missing_;
     std::map<std::string, const XmlElement*, std::less<>> objects_; // an <alias> stands for itself
     std::set<const XmlElement*> referenced_;
+    mutable std::set<std::filesystem::path> files_;
 };
 
 } // namespace sundog

@@ -208,6 +208,7 @@ private:
         count_file(xml, element.where);
         const pugi::xml_node root = xml.root();
         open_files_.push_back(file);
+        scene_.included.push_back(file);
         if (std::string_view(root.name()) == "scene")
             read_children(xml, root, parent, depth);
         else

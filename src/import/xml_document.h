@@ -31,6 +31,7 @@ struct XmlScene {
     std::string file;
     bool legacy = false;                                 // version 0.x: Mitsuba 0.6's defaults
     std::vector<std::filesystem::path> resource_folders; // of <path>, the latest first
+    std::vector<std::filesystem::path> included;
 };
 
 // Reads a scene file and all that it includes. `defines` override <default>s.

@@ -1,5 +1,6 @@
 #include "methods/memory_demand.h"
 
+#include "base/errors.h"
 #include "device/device.h"
 #include "device/memory_account.h"
 #include "methods/render_context.h"
@@ -37,9 +38,9 @@ void refuse_beyond_memory(const MethodInfo& info, const Parameters& parameters, 
     if (!greatest) return;
     const double bytes = bytes_for(*greatest, parameters, pixels);
     if (bytes > memory_bytes)
-        parameters.refuse(greatest->name, fmt::format("{}={} needs {} or more on a device that has {}; give a smaller number", greatest->name,
-                                                      parameters.text(greatest->name), format_bytes(static_cast<std::uint64_t>(bytes)),
-                                                      format_bytes(static_cast<std::uint64_t>(memory_bytes))));
+        throw DeviceError(fmt::format("{}={} needs {} of memory or more, and the device has {}; give a smaller number", greatest->name,
+                                      parameters.text(greatest->name), format_bytes(static_cast<std::uint64_t>(bytes)),
+                                      format_bytes(static_cast<std::uint64_t>(memory_bytes))));
 }
 
 std::unique_ptr<Method> create_method(const MethodInfo& info, RenderContext& context, const Parameters& parameters)

@@ -9,10 +9,10 @@
 namespace sundog
 {
 
-// Creates the method. A value that needs more memory than the device has is refused by name, where the user set one.
+// Creates the method. Throws DeviceError that names a value which the user set and which needs more memory than the device has.
 std::unique_ptr<Method> create_method(const MethodInfo& info, RenderContext& context, const Parameters& parameters);
 
-// Throws, where it was set, for a parameter each of whose objects would have to be smaller than it is. Pure, for tests.
+// Throws DeviceError where the parameter that the user set and that asks for most needs more than the memory. Pure, for tests.
 void refuse_beyond_memory(const MethodInfo& info, const Parameters& parameters, double memory_bytes, std::size_t pixels);
 
 } // namespace sundog

@@ -93,7 +93,9 @@ TEST_F(CliCompare, unusable_images)
 {
     write_grey("a.pfm", 3, 1.0f);
     write_grey("wide.pfm", 4, 1.0f);
-    write_grey("nan.pfm", 3, std::numeric_limits<float>::quiet_NaN());
+    std::string nan = "PF\n3 2\n-1\n"; // as other programs write them
+    for (int i = 0; i < 18; i++) nan.append("\0\0\xc0\x7f", 4);
+    write("nan.pfm", nan);
     write("broken.pfm", "PF\n3 2\n-1.0\nxx");
     write("text.exr", "text");
     expect_failure(run({"compare", "a.pfm", "wide.pfm"}), 5, {"a.pfm is 3x2 but wide.pfm is 4x2"});

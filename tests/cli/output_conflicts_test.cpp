@@ -32,6 +32,17 @@ TEST_F(CliOutputConflicts, outputs_on_the_scene)
     expect_refused({"info", "scene.xml", "--dump", "hard"}, {"--dump hard would overwrite the scene itself"});
 }
 
+TEST_F(CliOutputConflicts, outputs_on_what_the_scene_reads)
+{
+    write("texture.pfm", std::string("PF\n1 1\n-1\n") + std::string(12, '\0'));
+    write("part.xml", "<scene version=\"3.0.0\"><bsdf type=\"diffuse\" id=\"b\"><texture type=\"bitmap\" name=\"reflectance\">"
+                      "<string name=\"filename\" value=\"texture.pfm\"/></texture></bsdf></scene>");
+    write("scene.xml", "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><emitter type=\"constant\"/><include filename=\"part.xml\"/>"
+                       "<shape type=\"rectangle\"><ref id=\"b\"/></shape></scene>");
+    expect_refused({"render", "scene.xml", "-o", "texture.pfm"}, {"-o texture.pfm would overwrite a file that the scene reads; choose another name"});
+    expect_refused({"render", "scene.xml", "--stats", "part.xml"}, {"--stats part.xml would overwrite a file that the scene reads"});
+}
+
 TEST_F(CliOutputConflicts, outputs_that_are_each_other)
 {
     std::filesystem::create_symlink("a.exr", folder / "link");

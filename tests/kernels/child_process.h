@@ -18,14 +18,14 @@ struct ChildResult {
 };
 
 // A test that only runs as a child is named DISABLED_...; environment: "NAME=value NAME=value", without spaces in values.
-// All children run at the same time.
+// All children run at the same time, each the whole test, also where this process runs a shard of the tests.
 // In sanitized builds without the leak checker, which cannot trace PoCL's threads.
 inline std::vector<ChildResult> run_children(const std::vector<std::string>& environments, const std::string& test)
 {
     const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
     std::vector<FILE*> pipes;
     for (const auto& environment : environments) {
-        const std::string command = "env ASAN_OPTIONS=detect_leaks=0 " + environment + " '" + self +
+        const std::string command = "env -u GTEST_TOTAL_SHARDS -u GTEST_SHARD_INDEX ASAN_OPTIONS=detect_leaks=0 " + environment + " '" + self +
                                     "' --gtest_also_run_disabled_tests --gtest_filter=" + test + " 2>&1";
         pipes.push_back(::popen(command.c_str(), "r"));
     }

@@ -64,6 +64,8 @@ std::string outcome(const std::string& method, const std::map<std::string, std::
         return session.statistics().invalid_samples > 0 ? "invalid samples" : "";
     } catch (const UsageError& error) {
         return error.what();
+    } catch (const DeviceError& error) { // more than its memory
+        return error.what();
     }
 }
 
