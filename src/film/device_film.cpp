@@ -68,7 +68,9 @@ void DeviceFilm::serialize(StateArchive& archive)
     archive.count("film iterations", iterations_);
     if (archive.takes_blocks()) { // first hits are not taken back
         archive.count("first hit iterations", first_hit_iterations_);
-        archive.check(first_hit_iterations_ == iterations_ || first_hit_iterations_ == iterations_ + 1, "first hit iterations");
+        // 0: of a method that finds all of them before its first iteration.
+        const bool known = first_hit_iterations_ == 0 || first_hit_iterations_ == iterations_ || first_hit_iterations_ == iterations_ + 1;
+        archive.check(known, "first hit iterations");
     }
     sundog::serialize(archive, "film", pixels_, is_sum);
     sundog::serialize(archive, "first hit channels", first_hits, is_first_hit);

@@ -91,13 +91,26 @@ TEST_P(ParameterLimits, AreRefusedOrFinite)
     EXPECT_GE(finite, 5) << "hardly anything was rendered";
 }
 
-std::vector<std::string> names_of_methods()
+// Hundreds of millions of chains or seeds take minutes.
+bool is_slow(const std::string& method)
+{
+    return method == "pssmlt" || method == "psr";
+}
+
+std::vector<std::string> names_of_methods(bool slow)
 {
     std::vector<std::string> names;
-    for (const MethodInfo* info : all_methods()) names.push_back(info->name);
+    for (const MethodInfo* info : all_methods())
+        if (is_slow(info->name) == slow) names.push_back(info->name);
     return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, ParameterLimits, testing::ValuesIn(names_of_methods()), [](const auto& test) { return test.param; });
+std::string name_of(const testing::TestParamInfo<std::string>& test)
+{
+    return test.param;
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, ParameterLimits, testing::ValuesIn(names_of_methods(false)), name_of);
+INSTANTIATE_TEST_SUITE_P(LongMethods, ParameterLimits, testing::ValuesIn(names_of_methods(true)), name_of);
 
 } // namespace
