@@ -77,7 +77,7 @@ std::vector<std::string> names_of_methods()
 
 TEST_P(FilmShapes, OnePixelHasTheMean)
 {
-    expect_the_furnace(GetParam(), {1, 1, 64, 8});
+    expect_the_furnace(GetParam(), {1, 1, 256, 8});
 }
 
 TEST_P(FilmShapes, FewPixelsHaveTheMean)
